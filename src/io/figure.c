@@ -1,0 +1,332 @@
+/* The look of a figure: sizes in points of the page, colours that stay apart for colour-blind eyes
+ * (Okabe and Ito 2008) and, in grey print, by their dashes; a legend that covers no curve. */
+#include "io/figure.h"
+
+#include "io/text.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+/* One panel's axes and what stands around them, in points. */
+#define AXES_WIDTH     235.0
+#define AXES_HEIGHT    185.0
+#define MARGIN_LEFT    58.0
+#define MARGIN_RIGHT   14.0
+#define MARGIN_BOTTOM  42.0
+#define MARGIN_TOP     24.0
+#define FIGURE_TITLE   24.0
+#define FONT           "DejaVu Sans"
+#define FONT_SIZE      10.0
+#define LETTER_WIDTH   6.3 /* mean advance of that font at that size */
+#define LINE_HEIGHT    14.5
+#define LEGEND_SAMPLE  34.0
+#define LEGEND_PADDING 8.0
+
+enum { STYLES = 8, SAMPLES = 32 };
+
+static const struct {
+  const char *colour, *dashes;
+} styles[STYLES] = {
+    {"#0072b2", "solid"},      {"#d55e00", "(14,5)"}, {"#009e73", "(14,4,3,4)"},
+    {"#cc79a7", "(3,3)"},      {"#e69f00", "(22,5)"}, {"#000000", "(8,4,2,4,2,4)"},
+    {"#56b4e9", "(20,4,3,4)"}, {"#8c564b", "(6,3)"},
+};
+
+typedef struct {
+  double low, high;
+} range;
+
+/* ---- data ---- */
+
+static bool is_drawn(const cdem_curve *curve, int64_t i) {
+  return isfinite(curve->x[i]) && isfinite(curve->y[i]);
+}
+
+static void put_point(FILE *stream, double x, double y) {
+  char line[2 * CDEM_REAL_WIDTH + 2], *at = cdem_put_real(line, x);
+  *at++ = ' ';
+  at = cdem_put_real(at, y);
+  *at++ = '\n';
+  fwrite(line, 1, (size_t)(at - line), stream);
+}
+
+/* A gap in a line is one empty line; two would begin the next block. */
+static void put_curve(FILE *stream, const cdem_curve *curve) {
+  bool begun = false, gap = false;
+  for (int64_t i = 0; i < curve->points; i++) {
+    if (!is_drawn(curve, i)) {
+      gap = begun;
+      continue;
+    }
+    if (gap)
+      fputc('\n', stream);
+    put_point(stream, curve->x[i], curve->y[i]);
+    begun = true;
+    gap = false;
+  }
+  if (!begun)
+    fputs("NaN NaN\n", stream);
+}
+
+void cdem_figure_put_data(FILE *stream, const cdem_figure *figure) {
+  bool first = true;
+  for (int p = 0; p < figure->panels; p++)
+    for (int c = 0; c < figure->panel[p].curves; c++) {
+      const cdem_curve *curve = &figure->panel[p].curve[c];
+      fprintf(stream, "%s# panel %d, curve %d: ", first ? "" : "\n\n", p + 1, c + 1);
+      for (const char *t = curve->title != NULL ? curve->title : ""; *t != '\0'; t++)
+        fputc((unsigned char)*t < ' ' ? ' ' : *t, stream);
+      fputc('\n', stream);
+      put_curve(stream, curve);
+      first = false;
+    }
+}
+
+/* ---- ranges and the place of the legend ---- */
+
+static void widen(range *r, double value) {
+  r->low = value < r->low ? value : r->low;
+  r->high = value > r->high ? value : r->high;
+}
+
+static range finish_range(range r, double margin) {
+  if (!(r.low <= r.high))
+    return (range){0.0, 1.0};
+  double size = r.high - r.low;
+  if (!(size > 1e-12 * fmax(fabs(r.low), fabs(r.high))))
+    size = r.low != 0.0 ? fabs(r.low) : 1.0;
+  return (range){r.low - margin * size, r.high + margin * size};
+}
+
+static range x_range(const cdem_panel *panel) {
+  range r = {INFINITY, -INFINITY};
+  for (int c = 0; c < panel->curves; c++)
+    for (int64_t i = 0; i < panel->curve[c].points; i++)
+      if (is_drawn(&panel->curve[c], i))
+        widen(&r, panel->curve[c].x[i]);
+  return finish_range(r, r.low < r.high ? 0.0 : 0.5);
+}
+
+static range y_range(const cdem_panel *panel) {
+  if (panel->y_min != panel->y_max)
+    return (range){panel->y_min, panel->y_max};
+  range r = {INFINITY, -INFINITY};
+  for (int c = 0; c < panel->curves; c++)
+    for (int64_t i = 0; i < panel->curve[c].points; i++)
+      if (is_drawn(&panel->curve[c], i))
+        widen(&r, panel->curve[c].y[i]);
+  return finish_range(r, 0.05);
+}
+
+/* Letters of a text as drawn: UTF-8 continuation bytes and gnuplot's markup do not count. */
+static int letters(const char *text) {
+  int count = 0;
+  for (const char *c = text; *c != '\0'; c++)
+    count += ((unsigned char)*c & 0xc0) != 0x80 && strchr("_^{}", *c) == NULL;
+  return count;
+}
+
+static bool has_entry(const cdem_curve *curve) {
+  return curve->title != NULL && curve->title[0] != '\0';
+}
+
+/* Size of the legend as parts of the axes; zero when there is none. */
+static void legend_size(const cdem_panel *panel, double *width, double *height) {
+  int longest = 0, entries = 0;
+  for (int c = 0; c < panel->curves; c++)
+    if (has_entry(&panel->curve[c])) {
+      int n = letters(panel->curve[c].title);
+      longest = n > longest ? n : longest;
+      entries++;
+    }
+  *width = entries == 0
+               ? 0.0
+               : (longest * LETTER_WIDTH + LEGEND_SAMPLE + 2 * LEGEND_PADDING) / AXES_WIDTH;
+  *height = entries == 0 ? 0.0 : (entries * LINE_HEIGHT + LEGEND_PADDING) / AXES_HEIGHT;
+}
+
+typedef struct {
+  const char *key;
+  double x, y; /* 0 left or bottom, 0.5 middle, 1 right or top */
+} place;
+
+static const place places[] = {{"right top", 1, 1},      {"left top", 0, 1},
+                               {"right bottom", 1, 0},   {"left bottom", 0, 0},
+                               {"center top", 0.5, 1},   {"center bottom", 0.5, 0},
+                               {"right center", 1, 0.5}, {"left center", 0, 0.5}};
+enum { PLACES = sizeof places / sizeof places[0] };
+
+/* Points of all lines, sampled along each segment, that fall into the legend's box at a place. */
+static int64_t covered(const cdem_panel *panel, range x, range y, const place *at, double width,
+                       double height) {
+  double left = at->x * (1 - width), bottom = at->y * (1 - height);
+  int64_t hits = 0;
+  for (int c = 0; c < panel->curves; c++) {
+    const cdem_curve *curve = &panel->curve[c];
+    for (int64_t i = 0; i < curve->points; i++) {
+      bool line = i > 0 && is_drawn(curve, i) && is_drawn(curve, i - 1);
+      for (int s = 0; s < SAMPLES && (line || (s == 0 && is_drawn(curve, i))); s++) {
+        double t = (double)s / SAMPLES;
+        double px = curve->x[i] + (line ? t * (curve->x[i - 1] - curve->x[i]) : 0.0);
+        double py = curve->y[i] + (line ? t * (curve->y[i - 1] - curve->y[i]) : 0.0);
+        double u = (px - x.low) / (x.high - x.low), v = (py - y.low) / (y.high - y.low);
+        hits += u >= left && u <= left + width && v >= bottom && v <= bottom + height;
+      }
+    }
+  }
+  return hits;
+}
+
+/* The emptiest place. Where none is empty and the axis is ours to choose, the axis is made longer
+ * at its top until the legend stands above all curves. */
+static const place *place_legend(const cdem_panel *panel, range x, range *y) {
+  double width, height;
+  legend_size(panel, &width, &height);
+  const place *best = NULL;
+  int64_t least = INT64_MAX;
+  for (int i = 0; i < PLACES; i++) {
+    int64_t hits = covered(panel, x, *y, &places[i], width, height);
+    if (hits < least) {
+      least = hits;
+      best = &places[i];
+    }
+  }
+  if (least > 0 && panel->y_min == panel->y_max && height < 0.6) {
+    y->high = y->low + (y->high - y->low) / (1 - height);
+    best = &places[0];
+  }
+  return best;
+}
+
+/* ---- script ---- */
+
+/* A gnuplot text in single quotes; control characters become spaces. */
+static void put_quoted(FILE *stream, const char *text) {
+  fputc('\'', stream);
+  for (const char *c = text != NULL ? text : ""; *c != '\0'; c++) {
+    if (*c == '\'')
+      fputc('\'', stream);
+    fputc((unsigned char)*c < ' ' ? ' ' : *c, stream);
+  }
+  fputc('\'', stream);
+}
+
+static void put_number(FILE *stream, double value) {
+  char text[CDEM_REAL_WIDTH];
+  fwrite(text, 1, (size_t)(cdem_put_real(text, value) - text), stream);
+}
+
+static void put_range(FILE *stream, const char *axis, range r) {
+  fprintf(stream, "set %srange [", axis);
+  put_number(stream, r.low);
+  fputs(":", stream);
+  put_number(stream, r.high);
+  fputs("]\n", stream);
+}
+
+/* Ticks of very large or small numbers as powers of ten. */
+static void put_format(FILE *stream, const char *axis, range r) {
+  double size = fmax(fabs(r.low), fabs(r.high));
+  bool plain = size < 1e5 && size >= 1e-2;
+  fprintf(stream, "set format %s '%s'\n", axis, plain ? "%g" : "%.1t×10^{%T}");
+}
+
+static void put_plot(FILE *stream, const cdem_panel *panel, int first) {
+  fputs("plot ", stream);
+  for (int c = 0; c < panel->curves; c++) {
+    const cdem_curve *curve = &panel->curve[c];
+    bool guide = curve->style < 0;
+    int style = guide ? 0 : curve->style % STYLES;
+    fprintf(stream, "%sdata index %d with lines lw %s lc rgb '%s' dt %s %s",
+            c > 0 ? ", \\\n     " : "", first + c, guide ? "0.7" : "1.5",
+            guide ? "#9a9a9a" : styles[style].colour, guide ? "solid" : styles[style].dashes,
+            has_entry(curve) ? "title " : "notitle");
+    if (has_entry(curve))
+      put_quoted(stream, curve->title);
+  }
+  if (panel->curves == 0)
+    fputs("1/0 notitle", stream);
+  fputc('\n', stream);
+}
+
+/* Panel p stands in column p % columns of row p / columns, from the top. */
+static void put_panel(FILE *stream, const cdem_figure *figure, int p, int first, double width,
+                      double height) {
+  const cdem_panel *panel = &figure->panel[p];
+  int columns = figure->columns > 0 ? figure->columns : 1;
+  double left = (p % columns) * (MARGIN_LEFT + AXES_WIDTH + MARGIN_RIGHT) + MARGIN_LEFT;
+  double top = height - (figure->title != NULL && figure->title[0] != '\0' ? FIGURE_TITLE : 0.0) -
+               (p / columns) * (MARGIN_TOP + AXES_HEIGHT + MARGIN_BOTTOM) - MARGIN_TOP;
+  const double edge[4] = {left / width, (left + AXES_WIDTH) / width, (top - AXES_HEIGHT) / height,
+                          top / height};
+  range x = x_range(panel), y = y_range(panel);
+  const place *legend = place_legend(panel, x, &y);
+  fputs("\nset margins screen ", stream);
+  for (int e = 0; e < 4; e++) {
+    fputs(e == 0 ? "" : ", screen ", stream);
+    put_number(stream, edge[e]);
+  }
+  fputc('\n', stream);
+  put_range(stream, "x", x);
+  put_range(stream, "y", y);
+  put_format(stream, "x", x);
+  put_format(stream, "y", y);
+  fputs("set xlabel ", stream);
+  put_quoted(stream, panel->x_label);
+  fputs("\nset ylabel ", stream);
+  put_quoted(stream, panel->y_label);
+  fprintf(stream, "\nset key %s\nset label 1 ", legend->key);
+  put_quoted(stream, panel->title);
+  fputs(" at graph 0, 1.055 left\n", stream);
+  if (figure->panels > 1)
+    fprintf(stream, "set label 2 '(%c)' at graph 1, 1.055 right\n", 'a' + p % 26);
+  put_plot(stream, panel, first);
+}
+
+void cdem_figure_put_script(FILE *stream, const char *name, const cdem_figure *figure) {
+  int columns = figure->columns > 0 ? figure->columns : 1;
+  int rows = (figure->panels + columns - 1) / columns;
+  int across = figure->panels < columns ? figure->panels : columns;
+  bool titled = figure->title != NULL && figure->title[0] != '\0';
+  double width = across * (MARGIN_LEFT + AXES_WIDTH + MARGIN_RIGHT);
+  double height = rows * (MARGIN_TOP + AXES_HEIGHT + MARGIN_BOTTOM) + (titled ? FIGURE_TITLE : 0.0);
+  fputs("# draws the .png and .svg beside it: gnuplot THIS_FILE, in this folder\n", stream);
+  const char *const kind[] = {"png", "svg", "data"}, *const ending[] = {".png", ".svg", ".dat"};
+  for (int i = 0; i < 3; i++) {
+    fprintf(stream, "if (!exists('%s')) %s = ", kind[i], kind[i]);
+    put_quoted(stream, name);
+    fprintf(stream, ".'%s'\n", ending[i]);
+  }
+  fprintf(stream,
+          "set encoding utf8\n"
+          "do for [kind in 'png svg'] {\n"
+          "if (kind eq 'png') {\n"
+          "  set terminal pngcairo enhanced size %d,%d font '" FONT
+          ",%g' fontscale 2 linewidth 2 dashlength 0.8 background rgb 'white'\n"
+          "  set output png\n} else {\n"
+          "  set terminal svg enhanced size %d,%d font '" FONT
+          ",%g' linewidth 1 dashlength 0.8 background rgb 'white'\n"
+          "  set output svg\n}\n",
+          (int)(2 * width), (int)(2 * height), FONT_SIZE, (int)width, (int)height, FONT_SIZE);
+  fprintf(stream, "set border 31 lw 0.6 lc rgb '#222222'\n"
+                  "set tics in scale 0.6,0.3 textcolor rgb 'black'\n"
+                  "set mxtics 2\nset mytics 2\n"
+                  "set xzeroaxis lw 0.4 lc rgb '#b0b0b0' dt solid\n"
+                  "set key nobox Left reverse samplen 2.6 spacing 1.15 width 0\n"
+                  "set xlabel offset 0,0.4\nset ylabel offset 1.2,0\n"
+                  "set multiplot\n");
+  if (titled) {
+    fputs("set label 3 ", stream);
+    put_quoted(stream, figure->title);
+    fprintf(stream, " at screen 0.5, screen ");
+    put_number(stream, 1.0 - 0.55 * FIGURE_TITLE / height);
+    fprintf(stream, " center font '" FONT ",%g'\n", FONT_SIZE + 1);
+  }
+  for (int p = 0, first = 0; p < figure->panels; p++) {
+    put_panel(stream, figure, p, first, width, height);
+    first += figure->panel[p].curves;
+    if (p == 0 && titled)
+      fputs("unset label 3\n", stream);
+  }
+  fputs("\nunset multiplot\nset output\nreset\n}\n", stream);
+}

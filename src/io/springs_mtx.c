@@ -1,0 +1,132 @@
+/* The assembled network matrix as Matrix Market, and the wrapper both matrix writers share. */
+#include "io/output.h"
+#include "io/springs_matrix.h"
+#include "io/text.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* ---- shared with springs_inp.c ---- */
+
+static void destroy(cdem_springs_writer *writer) {
+  cdem_matrix_writer *matrix = (cdem_matrix_writer *)writer;
+  cdem_output_discard(&matrix->output);
+  cdem_sparse_release(&matrix->sparse);
+  free(matrix);
+}
+
+static cdem_status commit(cdem_springs_writer *writer, cdem_fault *fault) {
+  cdem_matrix_writer *matrix = (cdem_matrix_writer *)writer;
+  CDEM_TRY(matrix->put(matrix, fault));
+  return cdem_output_commit(&matrix->output, fault);
+}
+
+cdem_status cdem_matrix_writer_open(const char *path, const cdem_model *model,
+                                    cdem_status (*put)(const cdem_matrix_writer *, cdem_fault *),
+                                    cdem_springs_writer **writer, cdem_fault *fault) {
+  cdem_matrix_writer *matrix;
+  *writer = NULL;
+  CDEM_NEW(matrix, 1, fault);
+  matrix->model = model;
+  matrix->put = put;
+  cdem_status status = cdem_output_open(path, &matrix->output, fault);
+  if (status == CDEM_OK)
+    status = cdem_sparse_init(model, &matrix->sparse, fault);
+  if (status != CDEM_OK) {
+    destroy(&matrix->writer);
+    return status;
+  }
+  matrix->writer = (cdem_springs_writer){
+      .sink = cdem_sparse_sink(&matrix->sparse), .commit = commit, .destroy = destroy};
+  *writer = &matrix->writer;
+  return CDEM_OK;
+}
+
+bool cdem_matrix_is_symmetric(const cdem_sparse *sparse) {
+  int dofs = sparse->dofs;
+  double bound = CDEM_MATRIX_ROUNDING * cdem_sparse_largest(sparse);
+  for (int32_t p = 0; p < sparse->nodes; p++)
+    for (int64_t k = sparse->start[p]; k < sparse->start[p + 1]; k++) {
+      const double *block = sparse->value + k * dofs * dofs;
+      const double *other = cdem_sparse_block(sparse, sparse->column[k], p);
+      for (int a = 0; a < dofs; a++)
+        for (int b = 0; b < dofs; b++)
+          if (other == NULL || !(fabs(block[a * dofs + b] - other[b * dofs + a]) <= bound))
+            return false;
+    }
+  return true;
+}
+
+/* ---- Matrix Market ---- */
+
+/* Comments: where the numbers come from and which row is which degree of freedom. */
+static void put_comments(const cdem_matrix_writer *matrix, FILE *stream) {
+  const cdem_sparse *sparse = &matrix->sparse;
+  const cdem_mesh *mesh = matrix->model->mesh;
+  static const char *const components[] = {"ux, uy", "ux, uy, uz", "ux, uy, rotation"};
+  int kind = cdem_model_is_cosserat(matrix->model) ? 2 : sparse->dofs - 2;
+  fprintf(stream, "%% stiffness matrix of the spring network of %s, by cdem " CDEM_VERSION "\n",
+          mesh->source != NULL ? mesh->source : "a generated mesh");
+  fprintf(stream, "%% f = K u; N/m (rotations: N and N m)\n");
+  fprintf(stream, "%% row %d*(p - 1) + c is component c of the p-th node below, c = 1..%d for %s\n",
+          sparse->dofs, sparse->dofs, components[kind]);
+  fprintf(stream, "%% nodes %" PRId32 ", their tags in order:\n", sparse->nodes);
+  for (int32_t p = 0; p < sparse->nodes; p++)
+    fprintf(stream, "%s%" PRId64 "%s", p % 10 == 0 ? "% " : " ", mesh->node_tag[sparse->node[p]],
+            p % 10 == 9 || p == sparse->nodes - 1 ? "\n" : "");
+}
+
+/* Is entry (a, b) of block (p, q) written? Zeros are not, nor the upper triangle of a symmetric
+ * matrix. */
+static bool is_written(bool symmetric, int64_t row, int64_t column, double value) {
+  return value != 0.0 && (!symmetric || row >= column);
+}
+
+static cdem_status put_entries(const cdem_matrix_writer *matrix, bool symmetric, int64_t *entries,
+                               cdem_output *output, cdem_fault *fault) {
+  const cdem_sparse *sparse = &matrix->sparse;
+  int dofs = sparse->dofs;
+  *entries = 0;
+  for (int32_t p = 0; p < sparse->nodes; p++)
+    for (int a = 0; a < dofs; a++)
+      for (int64_t k = sparse->start[p]; k < sparse->start[p + 1]; k++)
+        for (int b = 0; b < dofs; b++) {
+          double value = sparse->value[(k * dofs + a) * dofs + b];
+          int64_t row = (int64_t)p * dofs + a, column = (int64_t)sparse->column[k] * dofs + b;
+          if (!is_written(symmetric, row, column, value))
+            continue;
+          ++*entries;
+          if (output == NULL)
+            continue;
+          char line[2 * CDEM_INTEGER_WIDTH + CDEM_REAL_WIDTH + 4], *at = line;
+          at = cdem_put_integer(at, row + 1);
+          *at++ = ' ';
+          at = cdem_put_integer(at, column + 1);
+          *at++ = ' ';
+          at = cdem_put_real(at, value);
+          *at++ = '\n';
+          CDEM_TRY(cdem_output_write(output, line, (size_t)(at - line), fault));
+        }
+  return CDEM_OK;
+}
+
+static cdem_status put_mtx(const cdem_matrix_writer *matrix, cdem_fault *fault) {
+  FILE *stream = cdem_output_stream(matrix->output);
+  bool symmetric = cdem_matrix_is_symmetric(&matrix->sparse);
+  int64_t rows = (int64_t)matrix->sparse.nodes * matrix->sparse.dofs, entries;
+  fprintf(stream, "%%%%MatrixMarket matrix coordinate real %s\n",
+          symmetric ? "symmetric" : "general");
+  put_comments(matrix, stream);
+  CDEM_TRY(put_entries(matrix, symmetric, &entries, NULL, fault));
+  fprintf(stream, "%" PRId64 " %" PRId64 " %" PRId64 "\n", rows, rows, entries);
+  return put_entries(matrix, symmetric, &entries, matrix->output, fault);
+}
+
+static cdem_status open_mtx(const char *path, const cdem_model *model, cdem_springs_writer **writer,
+                            cdem_fault *fault) {
+  return cdem_matrix_writer_open(path, model, put_mtx, writer, fault);
+}
+
+const cdem_springs_format cdem_springs_mtx = {
+    "mtx", ".mtx", "Matrix Market file of the assembled network", open_mtx};

@@ -1,0 +1,78 @@
+/* Private to io: a YAML file as a tree of nodes that know where they stand, and a list of errors
+ * that show it.
+ *
+ * What has no place in an input file is an error here already: anchors and aliases, tags, a second
+ * document, keys that are no plain words, the same key twice. Several errors are collected, so that
+ * a person does not repair a file one run at a time:
+ *
+ *     granite.yaml:2:1: unknown key 'yuong'; did you mean 'young'?
+ *       yuong: 40 GPa
+ *       ^~~~~
+ */
+#ifndef CDEM_IO_YAML_TREE_H
+#define CDEM_IO_YAML_TREE_H
+
+#include "base/base.h"
+
+#include <stdbool.h>
+
+typedef enum { CDEM_YAML_SCALAR, CDEM_YAML_LIST, CDEM_YAML_MAP } cdem_yaml_kind;
+
+/* Children of a map alternate between key and value. */
+typedef struct {
+  cdem_yaml_kind kind;
+  char *text;              /* of a scalar */
+  int line, column, width; /* from 1; characters to underline */
+  int32_t child, next;     /* first child, next sibling; -1: none */
+  int32_t children;
+} cdem_yaml_node;
+
+typedef struct {
+  char *path;
+  char *source; /* the whole file, ended by a zero */
+  int64_t bytes, source_capacity;
+  cdem_yaml_node *node; /* [0] is the root */
+  int64_t nodes, capacity;
+  int errors;
+  cdem_fault report; /* the errors so far */
+} cdem_yaml;
+
+/* CDEM_FILE: cannot be read. CDEM_INPUT: no YAML at all. Errors that leave a tree behind are
+ * collected. Zero-initialise; release at any stage. */
+cdem_status cdem_yaml_read(const char *path, cdem_yaml *yaml, cdem_fault *fault);
+void cdem_yaml_release(cdem_yaml *yaml);
+
+/* Adds an error at a node. */
+__attribute__((format(printf, 3, 4))) void
+cdem_yaml_error(cdem_yaml *yaml, const cdem_yaml_node *at, const char *format, ...);
+/* Adds "unknown WHAT 'text'" with the nearest candidate. */
+void cdem_yaml_unknown(cdem_yaml *yaml, const cdem_yaml_node *at, const char *what,
+                       const char *const *candidates, int count);
+/* CDEM_INPUT with all errors, if there are any. */
+cdem_status cdem_yaml_finish(const cdem_yaml *yaml, cdem_fault *fault);
+
+static inline const cdem_yaml_node *cdem_yaml_root(const cdem_yaml *yaml) {
+  return &yaml->node[0];
+}
+static inline const cdem_yaml_node *cdem_yaml_child(const cdem_yaml *yaml,
+                                                    const cdem_yaml_node *node) {
+  return node->child < 0 ? NULL : &yaml->node[node->child];
+}
+static inline const cdem_yaml_node *cdem_yaml_next(const cdem_yaml *yaml,
+                                                   const cdem_yaml_node *node) {
+  return node->next < 0 ? NULL : &yaml->node[node->next];
+}
+/* The value of a key of a map, NULL when it is not there. */
+const cdem_yaml_node *cdem_yaml_find(const cdem_yaml *yaml, const cdem_yaml_node *map,
+                                     const char *key);
+/* "a text", "a list", "a map" for messages. */
+const char *cdem_yaml_kind_name(cdem_yaml_kind kind);
+
+/* Each key and value of a map. */
+#define CDEM_YAML_EACH(yaml, map, key, value)                                                      \
+  for (const cdem_yaml_node *key = cdem_yaml_child((yaml), (map)),                                 \
+                            *value = key != NULL ? cdem_yaml_next((yaml), key) : NULL;             \
+       key != NULL; key = cdem_yaml_next((yaml), value),                                           \
+                            value = key != NULL ? cdem_yaml_next((yaml), key) : NULL)
+
+#endif

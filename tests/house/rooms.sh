@@ -1,0 +1,28 @@
+#!/bin/sh
+# Reads every #include "ROOM/..." of every room against cmake/rooms.txt: no way back, no cycles.
+# usage: rooms.sh SOURCE_FOLDER
+cd "$1" || exit 2
+awk '
+  FILENAME == "cmake/rooms.txt" {
+    if ($0 ~ /^#/ || $0 == "") next
+    room = $1; sub(/:$/, "", room)
+    known[room] = 1; allowed[room, room] = 1
+    for (i = 2; i <= NF; i++) {
+      if (!($i in known)) { printf "cmake/rooms.txt: %s may include %s, which comes later: a cycle\n", room, $i; bad = 1 }
+      allowed[room, $i] = 1
+    }
+    next
+  }
+  FNR == 1 { split(FILENAME, part, "/"); here = part[1] == "tools" ? "tools" : part[2]
+             if (!(here in known)) { printf "%s: room %s is not in cmake/rooms.txt\n", FILENAME, here; bad = 1 } }
+  /^[ \t]*#[ \t]*include[ \t]*"[a-z0-9_]+\// {
+    split($0, quoted, "\""); split(quoted[2], path, "/")
+    if (!((here, path[1]) in allowed)) { printf "%s:%d: room %s may not include %s\n", FILENAME, FNR, here, path[1]; bad = 1 }
+    files++
+  }
+  END { if (files == 0) { print "no includes found"; bad = 1 } exit bad }
+' cmake/rooms.txt $(find src tools -name '*.[ch]' -o -name '*.def' | sort) || exit 1
+# Only io opens files, only tools prints or exits.
+grep -nE '\b(printf|puts|exit|abort|getenv)[[:space:]]*\(' -r src --include='*.[ch]' | grep -vE 'snprintf|vsnprintf|^src/io/' && exit 1
+grep -nE '\b(fopen|open|H5Fcreate)[[:space:]]*\(' -r src --include='*.[ch]' | grep -vE '^src/io/|->open|\(\*open\)' && exit 1
+echo "rooms hold"

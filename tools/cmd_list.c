@@ -1,0 +1,91 @@
+/* cdem list [TOPIC]: what there is, from the tables that the program itself works from. */
+#include "base/suggest.h"
+#include "command.h"
+
+#include <string.h>
+
+static void list_elements(void) {
+  printf("elements (kind: nodes, shape functions; full quadrature)\n");
+  for (int i = 0; i < CDEM_ELEMENT_COUNT; i++) {
+    const cdem_element *element = cdem_element_get((cdem_element_id)i);
+    printf("  %-15s %2d nodes, %d pairs of %dx%d; %s; %s\n", element->name,
+           cdem_element_nodes(element), cdem_element_pairs(element), cdem_element_dofs(element),
+           cdem_element_dofs(element), element->basis, element->rule);
+  }
+}
+
+static void list_materials(void) {
+  printf("material models (keys of a material file; [unit], default in brackets)\n");
+  for (int m = 0; m < CDEM_MATERIAL_MODEL_COUNT; m++) {
+    const cdem_material_model_info *model = cdem_material_model_get((cdem_material_model)m);
+    printf("  %s: %s\n", model->name, model->help);
+    for (int k = 0; k < model->keys; k++) {
+      char unit[48];
+      printf("    %-22s [%s] %s", model->key[k].key,
+             cdem_dimension_unit(model->key[k].dimension, unit), model->key[k].help);
+      if (model->key[k].optional)
+        printf(" (%g)", model->key[k].fallback);
+      printf("\n");
+    }
+  }
+}
+
+static void list_formats(void) {
+  printf("output formats of `cdem springs` (endings)\n");
+  for (int i = 0; cdem_springs_format_at(i) != NULL; i++) {
+    const cdem_springs_format *format = cdem_springs_format_at(i);
+    printf("  %-5s %-12s %s\n", format->name, format->endings, format->help);
+  }
+}
+
+static void list_commands(void) {
+  printf("commands\n");
+  for (const command *c = commands; c->name != NULL; c++)
+    printf("  %-10s %s\n", c->name, c->summary);
+}
+
+static const struct {
+  const char *name;
+  void (*print)(void);
+} topics[] = {
+    {"elements", list_elements},
+    {"materials", list_materials},
+    {"formats", list_formats},
+    {"commands", list_commands},
+};
+
+enum { TOPICS = sizeof topics / sizeof topics[0] };
+
+static error_t parse(int key, char *text, struct argp_state *state) {
+  const char **topic = state->input;
+  if (key != ARGP_KEY_ARG)
+    return key == ARGP_KEY_END ? 0 : ARGP_ERR_UNKNOWN;
+  if (*topic != NULL)
+    command_usage("one topic at a time");
+  *topic = text;
+  return 0;
+}
+
+int cmd_list(int argc, char **argv) {
+  static const struct argp_option none[] = {{0}};
+  static const struct argp argp = {
+      none, parse, "[elements|materials|formats|commands]", "Lists what the program knows.", NULL,
+      NULL, NULL};
+  const char *topic = NULL, *names[TOPICS];
+  command_parse(&argp, argc, argv, &topic);
+  for (int i = 0; i < TOPICS; i++)
+    names[i] = topics[i].name;
+  bool found = false;
+  for (int i = 0; i < TOPICS; i++)
+    if (topic == NULL || strcmp(topic, topics[i].name) == 0) {
+      printf("%s", topic == NULL && i > 0 ? "\n" : "");
+      topics[i].print();
+      found = true;
+    }
+  if (!found) {
+    const char *nearest = cdem_suggest(topic, names, TOPICS);
+    command_usage("there is no topic '%s'%s%s%s", topic, nearest != NULL ? "; did you mean '" : "",
+                  nearest != NULL ? nearest : "", nearest != NULL ? "'?" : "");
+  }
+  return 0;
+}

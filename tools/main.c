@@ -1,0 +1,52 @@
+/* cdem COMMAND [options] [operands]: finds the command and hands over. */
+#include "base/suggest.h"
+#include "command.h"
+#include "version.h"
+
+#include <signal.h>
+#include <string.h>
+
+const command commands[] = {
+#define X(name, summary) {#name, summary, cmd_##name},
+#include "commands.def"
+#undef X
+    {NULL, NULL, NULL},
+};
+
+static void print_version(void) {
+  printf("cdem %s (%s)\nbuilt with %s, %s\n", CDEM_VERSION, CDEM_COMMIT, CDEM_COMPILER, CDEM_BUILD);
+  printf(
+      "Licence GPL-3.0-or-later: you may change and share this program; there is no warranty.\n");
+}
+
+static int unknown(const char *name) {
+  const char *names[sizeof commands / sizeof commands[0]];
+  int count = 0;
+  for (; commands[count].name != NULL; count++)
+    names[count] = commands[count].name;
+  const char *nearest = cdem_suggest(name, names, count);
+  if (nearest != NULL)
+    command_usage("there is no command '%s'; did you mean '%s'?", name, nearest);
+  command_usage("there is no command '%s'", name);
+}
+
+int main(int argc, char **argv) {
+  signal(SIGPIPE, SIG_IGN); /* a closed pipe is an error message, not a silent death */
+  signal(SIGXFSZ, SIG_IGN); /* likewise a file-size limit */
+  if (argc < 2)
+    command_usage("a command is wanted: springs, poisson, verify, list or help");
+  if (strcmp(argv[1], "--version") == 0 || strcmp(argv[1], "-V") == 0) {
+    print_version();
+    return command_finish(0);
+  }
+  const char *name =
+      strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 ? "help" : argv[1];
+  for (const command *c = commands; c->name != NULL; c++)
+    if (strcmp(c->name, name) == 0) {
+      char called[64];
+      snprintf(called, sizeof called, "cdem %s", c->name);
+      argv[1] = called;
+      return command_finish(c->run(argc - 1, argv + 1));
+    }
+  return unknown(name);
+}
