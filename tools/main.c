@@ -3,6 +3,7 @@
 #include "command.h"
 #include "version.h"
 
+#include <gsl/gsl_errno.h>
 #include <signal.h>
 #include <string.h>
 
@@ -31,8 +32,9 @@ static int unknown(const char *name) {
 }
 
 int main(int argc, char **argv) {
-  signal(SIGPIPE, SIG_IGN); /* a closed pipe is an error message, not a silent death */
-  signal(SIGXFSZ, SIG_IGN); /* likewise a file-size limit */
+  gsl_set_error_handler_off(); /* GSL's default handler aborts */
+  signal(SIGPIPE, SIG_IGN);    /* a closed pipe is an error message, not a silent death */
+  signal(SIGXFSZ, SIG_IGN);    /* likewise a file-size limit */
   if (argc < 2)
     command_usage("a command is wanted: springs, poisson, verify, list or help");
   if (strcmp(argv[1], "--version") == 0 || strcmp(argv[1], "-V") == 0) {

@@ -22,9 +22,11 @@
 
 #define CDEM_ALWAYS_INLINE static inline __attribute__((always_inline))
 
-/* Eight doubles side by side, as the compiler's own vector; lowered to what the processor has.
- * Arrays of double are read and written through cdem_vec8_at, which asks for no alignment. Hand
- * both on by pointer: by value the calling convention depends on the processor. */
+/* Eight doubles side by side, as the compiler's own vector. Arrays of double are read and written
+ * through cdem_vec8_at, which asks for no alignment. Hand both on by pointer: by value the calling
+ * convention depends on the processor. On a processor without AVX-512 gcc takes such a vector apart
+ * through memory: good for moving data, ten times too slow for arithmetic (there, plain loops over
+ * lanes, or one body per width as in elements/kernels.c). */
 typedef double cdem_vec8 __attribute__((vector_size(64)));
 typedef double cdem_vec8_at __attribute__((vector_size(64), aligned(8), may_alias));
 

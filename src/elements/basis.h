@@ -36,6 +36,16 @@ bool cdem_rule_pyramid(int degree, cdem_quadrature *rule);
 bool cdem_rule_wedge(int degree, cdem_quadrature *rule);
 bool cdem_rule_cube(int degree, cdem_quadrature *rule);
 
+/* The kernels of elements.h for vectors of 8, 4 or 2 doubles; NULL where the processor or the build
+ * has none so wide. Width 2 is always there. */
+typedef struct {
+  void (*moments)(const cdem_tabulation *tabulation, const double *x, double *moment,
+                  double *least);
+  void (*blocks)(int pairs, const cdem_contraction *const contraction[CDEM_LANES],
+                 const double *moment, double *s);
+} cdem_kernels;
+const cdem_kernels *cdem_kernels_of_width(int width);
+
 /* j[3 i + k] = dx_i/dxi_k from derivatives dn [nodes][3]; a plane element is continued as a prism
  * of unit height. Returns the determinant. */
 static inline double cdem_jacobian(int dimension, int nodes, const double (*dn)[3],

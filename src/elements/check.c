@@ -4,8 +4,7 @@
  *   - below CDEM_FLAT_BOUND |J| |adj J| = CDEM_FLAT_BOUND |det J| cond(J): thinner than a
  *     million-millionth of its length;
  *   - below what the rounding of the coordinates does to it, their size times |adj J|;
- *   - below the rounding of its own products (all nodes near one line make adj J rounding too);
- *   - below CDEM_FLAT_BOUND of the largest determinant of the element. */
+ *   - below the rounding of its own products (all nodes near one line make adj J rounding too). */
 #include "elements/basis.h"
 
 #include <float.h>
@@ -89,12 +88,12 @@ static cdem_status judge(const cdem_element *element, const census *inside, cons
   return CDEM_OK;
 }
 
-static census take(int points, const double *det, const double *zero, double largest) {
+static census take(int points, const double *det, const double *zero) {
   census c = {.least = INFINITY, .most = -INFINITY};
   for (int q = 0; q < points; q++) {
     c.least = fmin(c.least, det[q]);
     c.most = fmax(c.most, det[q]);
-    count(&c, det[q], fmax(zero[q], CDEM_FLAT_BOUND * largest));
+    count(&c, det[q], zero[q]);
   }
   return c;
 }
@@ -111,11 +110,8 @@ cdem_status cdem_element_check(const cdem_tabulation *tabulation, const double (
   int corners = cdem_shape_get(tabulation->element->shape)->corners;
   measure(tabulation, tabulation->points, tabulation->dn, xyz, det, zero);
   measure(tabulation, corners, tabulation->corner, xyz, corner_det, corner_zero);
-  double largest = 0.0;
-  for (int q = 0; q < tabulation->points; q++)
-    largest = fmax(largest, fabs(det[q]));
-  census inside = take(tabulation->points, det, zero, largest);
-  census corner = take(corners, corner_det, corner_zero, largest);
+  census inside = take(tabulation->points, det, zero);
+  census corner = take(corners, corner_det, corner_zero);
   return judge(tabulation->element, &inside, &corner, fault);
 }
 

@@ -7,20 +7,23 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* One panel's axes and what stands around them, in points. */
-#define AXES_WIDTH     235.0
-#define AXES_HEIGHT    185.0
-#define MARGIN_LEFT    58.0
+/* One panel's axes and what stands around them, in pixels of the simple resolution; the .png has
+ * twice as many. The sizes of the legend were measured on drawn figures. */
+#define AXES_WIDTH     240.0
+#define AXES_HEIGHT    190.0
+#define MARGIN_LEFT    66.0
 #define MARGIN_RIGHT   14.0
-#define MARGIN_BOTTOM  42.0
+#define MARGIN_BOTTOM  44.0
 #define MARGIN_TOP     24.0
 #define FIGURE_TITLE   24.0
+#define Y_LABEL        55.0 /* from the axes to the middle of the label */
 #define FONT           "DejaVu Sans"
-#define FONT_SIZE      10.0
-#define LETTER_WIDTH   6.3 /* mean advance of that font at that size */
-#define LINE_HEIGHT    14.5
+#define FONT_SIZE      9.5 /* points of 4/3 pixel */
+#define LETTER_WIDTH   6.7 /* mean advance */
+#define LINE_HEIGHT    16.0
 #define LEGEND_SAMPLE  34.0
-#define LEGEND_PADDING 8.0
+#define LEGEND_PADDING 22.0 /* left and right together */
+#define LEGEND_MARGIN  10.0 /* above and below together */
 
 enum { STYLES = 8, SAMPLES = 32 };
 
@@ -139,10 +142,12 @@ static void legend_size(const cdem_panel *panel, double *width, double *height) 
       longest = n > longest ? n : longest;
       entries++;
     }
-  *width = entries == 0
-               ? 0.0
-               : (longest * LETTER_WIDTH + LEGEND_SAMPLE + 2 * LEGEND_PADDING) / AXES_WIDTH;
-  *height = entries == 0 ? 0.0 : (entries * LINE_HEIGHT + LEGEND_PADDING) / AXES_HEIGHT;
+  if (entries == 0) {
+    *width = *height = 0.0;
+    return;
+  }
+  *width = (longest * LETTER_WIDTH + LEGEND_SAMPLE + LEGEND_PADDING) / AXES_WIDTH;
+  *height = (entries * LINE_HEIGHT + LEGEND_MARGIN) / AXES_HEIGHT;
 }
 
 typedef struct {
@@ -273,8 +278,12 @@ static void put_panel(FILE *stream, const cdem_figure *figure, int p, int first,
   put_format(stream, "y", y);
   fputs("set xlabel ", stream);
   put_quoted(stream, panel->x_label);
-  fputs("\nset ylabel ", stream);
+  /* A label of our own: gnuplot would move it with the width of the tick labels. */
+  fputs("\nset label 3 ", stream);
   put_quoted(stream, panel->y_label);
+  fputs(" at screen ", stream);
+  put_number(stream, (left - Y_LABEL) / width);
+  fputs(", graph 0.5 center rotate by 90", stream);
   fprintf(stream, "\nset key %s\nset label 1 ", legend->key);
   put_quoted(stream, panel->title);
   fputs(" at graph 0, 1.055 left\n", stream);
@@ -298,25 +307,25 @@ void cdem_figure_put_script(FILE *stream, const char *name, const cdem_figure *f
     fprintf(stream, ".'%s'\n", ending[i]);
   }
   fprintf(stream,
-          "set encoding utf8\n"
+          "set encoding utf8\nset minussign\n"
           "do for [kind in 'png svg'] {\n"
           "if (kind eq 'png') {\n"
           "  set terminal pngcairo enhanced size %d,%d font '" FONT
           ",%g' fontscale 2 linewidth 2 dashlength 0.8 background rgb 'white'\n"
           "  set output png\n} else {\n"
           "  set terminal svg enhanced size %d,%d font '" FONT
-          ",%g' linewidth 1 dashlength 0.8 background rgb 'white'\n"
+          ",%g' fontscale 1.3333 linewidth 1 dashlength 0.8 background rgb 'white'\n"
           "  set output svg\n}\n",
           (int)(2 * width), (int)(2 * height), FONT_SIZE, (int)width, (int)height, FONT_SIZE);
   fprintf(stream, "set border 31 lw 0.6 lc rgb '#222222'\n"
-                  "set tics in scale 0.6,0.3 textcolor rgb 'black'\n"
+                  "set tics in scale 0.6,0.3 font '" FONT ",8.2' textcolor rgb 'black'\n"
                   "set mxtics 2\nset mytics 2\n"
                   "set xzeroaxis lw 0.4 lc rgb '#b0b0b0' dt solid\n"
-                  "set key nobox Left reverse samplen 2.6 spacing 1.15 width 0\n"
-                  "set xlabel offset 0,0.4\nset ylabel offset 1.2,0\n"
+                  "set key nobox Left reverse samplen 2.4 spacing 1.05\n"
+                  "set xlabel offset 0,0.4\n"
                   "set multiplot\n");
   if (titled) {
-    fputs("set label 3 ", stream);
+    fputs("set label 4 ", stream);
     put_quoted(stream, figure->title);
     fprintf(stream, " at screen 0.5, screen ");
     put_number(stream, 1.0 - 0.55 * FIGURE_TITLE / height);
@@ -326,7 +335,7 @@ void cdem_figure_put_script(FILE *stream, const char *name, const cdem_figure *f
     put_panel(stream, figure, p, first, width, height);
     first += figure->panel[p].curves;
     if (p == 0 && titled)
-      fputs("unset label 3\n", stream);
+      fputs("unset label 4\n", stream);
   }
   fputs("\nunset multiplot\nset output\nreset\n}\n", stream);
 }

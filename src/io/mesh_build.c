@@ -30,16 +30,26 @@ void cdem_builder_warn(const cdem_mesh_builder *builder, const char *format, ...
   builder->warnings->warn(builder->warnings->context, message);
 }
 
-cdem_status cdem_builder_add_node(cdem_mesh_builder *builder, int64_t tag, const double xyz[3],
-                                  cdem_fault *fault) {
+cdem_status cdem_builder_claim_node(cdem_mesh_builder *builder, int64_t tag, cdem_fault *fault) {
+  bool fresh;
+  CDEM_TRY(cdem_tag_map_add(&builder->node, tag, &fresh, fault));
+  CDEM_REQUIRE(fresh, fault, CDEM_INPUT, "node %" PRId64 " is defined twice", tag);
+  return CDEM_OK;
+}
+
+cdem_status cdem_builder_place_node(cdem_mesh_builder *builder, int64_t tag, const double xyz[3],
+                                    cdem_fault *fault) {
   for (int i = 0; i < 3; i++)
     CDEM_REQUIRE(isfinite(xyz[i]), fault, CDEM_INPUT,
                  "node %" PRId64 ": coordinate %c is %g, not a finite number", tag, 'x' + i,
                  xyz[i]);
-  bool fresh;
-  CDEM_TRY(cdem_tag_map_add(&builder->node, tag, &fresh, fault));
-  CDEM_REQUIRE(fresh, fault, CDEM_INPUT, "node %" PRId64 " is defined twice", tag);
   return cdem_mesh_add_nodes(&builder->mesh, 1, xyz, &tag, fault);
+}
+
+cdem_status cdem_builder_add_node(cdem_mesh_builder *builder, int64_t tag, const double xyz[3],
+                                  cdem_fault *fault) {
+  CDEM_TRY(cdem_builder_claim_node(builder, tag, fault));
+  return cdem_builder_place_node(builder, tag, xyz, fault);
 }
 
 cdem_status cdem_builder_add_cell(cdem_mesh_builder *builder, cdem_shape shape, int64_t tag,

@@ -75,6 +75,11 @@ void cdem_builder_release(cdem_mesh_builder *builder);
 /* Messages are without the place: the caller prefixes it. */
 cdem_status cdem_builder_add_node(cdem_mesh_builder *builder, int64_t tag, const double xyz[3],
                                   cdem_fault *fault);
+/* The same in two steps, for files that list tags first; nodes are placed in the order of claiming.
+ */
+cdem_status cdem_builder_claim_node(cdem_mesh_builder *builder, int64_t tag, cdem_fault *fault);
+cdem_status cdem_builder_place_node(cdem_mesh_builder *builder, int64_t tag, const double xyz[3],
+                                    cdem_fault *fault);
 /* node_tag [nodes of the shape]; the id of the new cell is mesh.cells - 1. */
 cdem_status cdem_builder_add_cell(cdem_mesh_builder *builder, cdem_shape shape, int64_t tag,
                                   const int64_t *node_tag, cdem_fault *fault);
@@ -91,7 +96,7 @@ cdem_status cdem_builder_named(cdem_mesh_builder *builder, const char *name, int
 /* Appends cells first .. first + count - 1. */
 cdem_status cdem_builder_add_members(cdem_mesh_builder *builder, int64_t index, int32_t first,
                                      int64_t count, cdem_fault *fault);
-/* A group that has a name and no physical number has the dimension of its cells. */
+/* Says something to the caller's callback, if there is one. */
 void cdem_builder_warn(const cdem_mesh_builder *builder, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 

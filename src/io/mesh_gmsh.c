@@ -32,6 +32,13 @@ static void release_log(gmsh_log *log) {
   gmshFree(log->line);
 }
 
+/* gmsh ends some messages with a blank. */
+static const char *trimmed(char *line) {
+  for (size_t length = strlen(line); length > 0 && line[length - 1] == ' ';)
+    line[--length] = '\0';
+  return line;
+}
+
 /* gmsh's first error as ours; `what` says what was being done, `failed` that a call itself said so.
  * Copies the whole log: called once a step, not once an entity. */
 static cdem_status judge_log(const char *what, int failed, cdem_fault *fault) {
@@ -39,7 +46,7 @@ static cdem_status judge_log(const char *what, int failed, cdem_fault *fault) {
   cdem_status status = CDEM_OK;
   for (size_t i = 0; i < log.lines && status == CDEM_OK; i++)
     if (strncmp(log.line[i], "Error: ", 7) == 0)
-      status = cdem_fail(fault, CDEM_INPUT, "gmsh, %s: %s", what, log.line[i] + 7);
+      status = cdem_fail(fault, CDEM_INPUT, "gmsh, %s: %s", what, trimmed(log.line[i] + 7));
   if (status == CDEM_OK && failed != 0)
     status = cdem_fail(fault, CDEM_INPUT, "gmsh failed %s and gave no reason", what);
   release_log(&log);
@@ -58,7 +65,7 @@ static void pass_warnings(const cdem_mesh_builder *builder) {
   int warnings = 0;
   for (size_t i = 0; i < log.lines; i++)
     if (strncmp(log.line[i], "Warning: ", 9) == 0 && ++warnings <= SHOWN)
-      cdem_builder_warn(builder, "gmsh: %s", log.line[i] + 9);
+      cdem_builder_warn(builder, "gmsh: %s", trimmed(log.line[i] + 9));
   if (warnings > SHOWN)
     cdem_builder_warn(builder, "gmsh: %d more warnings", warnings - SHOWN);
   release_log(&log);
@@ -169,13 +176,28 @@ static cdem_status take_mesh(cdem_mesh_builder *builder, cdem_fault *fault) {
 
 /* ---- meshing ---- */
 
-/* True when the file meshed itself (`Mesh 3;`), perhaps changing the mesh afterwards. */
-static bool has_mesh(int dimension) {
+/* True when there are elements in the entity; tag -1: in any entity of the dimension. */
+static bool has_elements(int dimension, int tag) {
   int *type = NULL, error = 0;
   size_t types = 0;
-  gmshModelMeshGetElementTypes(&type, &types, dimension, -1, &error);
+  gmshModelMeshGetElementTypes(&type, &types, dimension, tag, &error);
   gmshFree(type);
   return types > 0;
+}
+
+/* gmsh leaves a volume that it cannot fill empty, at times without an error. */
+static cdem_status check_filled(int dimension, cdem_fault *fault) {
+  static const char *const kind[4] = {"point", "curve", "surface", "volume"};
+  int *pair = NULL, error = 0;
+  size_t numbers = 0;
+  gmshModelGetEntities(&pair, &numbers, dimension, &error);
+  cdem_status status = judge_call("entities", error, fault);
+  for (size_t i = 0; i + 1 < numbers && status == CDEM_OK; i += 2)
+    if (!has_elements(dimension, pair[i + 1]))
+      status = cdem_fail(fault, CDEM_INPUT, "gmsh, meshing: %s %d got no elements", kind[dimension],
+                         pair[i + 1]);
+  gmshFree(pair);
+  return status;
 }
 
 static cdem_status generate(const char *path, cdem_fault *fault) {
@@ -190,10 +212,11 @@ static cdem_status generate(const char *path, cdem_fault *fault) {
   CDEM_REQUIRE((int)algorithm != 8, fault, CDEM_INPUT,
                "Mesh.Algorithm = 8 ends gmsh 4.8 with a memory fault; set Mesh.Algorithm = 6 and "
                "keep Recombine Surface");
-  if (has_mesh(dimension))
+  if (has_elements(dimension, -1)) /* the file meshed itself (`Mesh 3;`) and may have gone on */
     return CDEM_OK;
   gmshModelMeshGenerate(dimension, &error);
-  return judge_log("meshing", error, fault);
+  CDEM_TRY(judge_log("meshing", error, fault));
+  return check_filled(dimension, fault);
 }
 
 static cdem_status run_session(const char *path, cdem_mesh_builder *builder, cdem_fault *fault) {

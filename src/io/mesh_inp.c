@@ -57,7 +57,6 @@ typedef enum { NODES, ELEMENTS, SETS, PASSES } inp_pass;
 typedef struct {
   cdem_text *text; /* `line` is the line of the keyword or data line in hand */
   cdem_mesh_builder *builder;
-  inp_pass pass;
   const char *next; /* the line after the one in hand */
   int64_t next_line;
   const char *from, *to; /* the line in hand, without blanks around it */
@@ -462,7 +461,6 @@ static cdem_status check_keyword(inp_reader *reader, const inp_keyword *keyword,
 
 static cdem_status walk(inp_reader *reader, inp_pass pass, cdem_fault *fault) {
   inp_keyword keyword;
-  reader->pass = pass;
   reader->next = reader->text->data;
   reader->next_line = 1;
   while (next_line(reader)) {

@@ -252,15 +252,20 @@ static cdem_status read_body(msh_reader *reader, section which, cdem_fault *faul
     return reader->version == 2 ? cdem_msh2_read_nodes(text, reader->builder, fault)
                                 : cdem_msh4_read_nodes(text, reader->builder, fault);
   case ELEMENTS:
-    if (!reader->done[NODES])
-      return cdem_text_fail(text, fault, "$Elements comes before $Nodes");
     return reader->version == 2
                ? cdem_msh2_read_elements(text, reader->builder, fault)
                : cdem_msh4_read_elements(text, &reader->entities, reader->builder, fault);
   default:
-    return cdem_text_fail(text, fault,
-                          "the mesh is partitioned, which is not read; save it from gmsh after "
-                          "Mesh > Delete partitions (option -unpartition)");
+    return CDEM_OK; /* refused before */
+  }
+}
+
+/* To the line after "$Nodes", where binary data may start at once. */
+static void end_line(cdem_text *text) {
+  text->at += text->at < text->end && *text->at == '\r';
+  if (text->at < text->end && *text->at == '\n') {
+    text->at++;
+    text->line++;
   }
 }
 
@@ -280,6 +285,13 @@ static cdem_status read_section(msh_reader *reader, const char *name, int length
   }
   if (reader->done[which])
     return cdem_text_fail(text, fault, "a second section %s", section_name[which]);
+  if (which == ELEMENTS && !reader->done[NODES])
+    return cdem_text_fail(text, fault, "$Elements comes before $Nodes");
+  if (which == PARTITIONED)
+    return cdem_text_fail(text, fault,
+                          "the mesh is partitioned, which is not read; save it without partitions "
+                          "(gmsh: Mesh > Unpartition)");
+  end_line(text);
   text->section = section_name[which];
   CDEM_TRY(read_body(reader, (section)which, fault));
   reader->done[which] = true;
@@ -301,11 +313,6 @@ static cdem_status read_sections(msh_reader *reader, cdem_fault *fault) {
     if (*word != '$' || length < 2)
       return cdem_text_fail(
           text, fault, "'%.*s' stands where a section such as $Nodes should start", length, word);
-    text->at += text->binary && text->at < text->end && *text->at == '\r';
-    if (text->at < text->end && *text->at == '\n') {
-      text->at++;
-      text->line++;
-    }
     CDEM_TRY(read_section(reader, word + 1, length - 1, fault));
   }
   for (int which = NODES; which <= ELEMENTS; which++)

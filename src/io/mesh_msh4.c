@@ -92,13 +92,16 @@ static cdem_status read_node_block(cdem_text *text, int64_t **tag, int64_t *capa
   if (dimension < 0 || dimension > 3)
     return cdem_text_fail(text, fault, "a block of nodes of dimension %" PRId64, dimension);
   CDEM_TRY(cdem_grow(tag, capacity, *count, sizeof **tag, fault));
-  for (int64_t i = 0; i < *count; i++)
+  for (int64_t i = 0; i < *count; i++) {
     CDEM_TRY(cdem_msh_size(text, &(*tag)[i], fault));
+    CDEM_TRY(cdem_text_prefix(text, fault, cdem_builder_claim_node(builder, (*tag)[i], fault)));
+  }
   for (int64_t i = 0; i < *count; i++) {
     double xyz[3], unused;
     for (int k = 0; k < 3; k++)
       CDEM_TRY(cdem_msh_real(text, &xyz[k], fault));
-    CDEM_TRY(cdem_text_prefix(text, fault, cdem_builder_add_node(builder, (*tag)[i], xyz, fault)));
+    CDEM_TRY(
+        cdem_text_prefix(text, fault, cdem_builder_place_node(builder, (*tag)[i], xyz, fault)));
     for (int k = 0; parametric != 0 && k < dimension; k++)
       CDEM_TRY(cdem_msh_real(text, &unused, fault));
   }

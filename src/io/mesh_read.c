@@ -3,13 +3,12 @@
 #include <string.h>
 #include <strings.h>
 
-typedef enum { MSH, INP, GEOMETRY, FORMATS } mesh_format;
+typedef enum { MSH, INP, GEO, STEP, FORMATS } mesh_format;
 
 static const struct {
   const char *ending;
   mesh_format format;
-} endings[] = {
-    {".msh", MSH}, {".geo", GEOMETRY}, {".step", GEOMETRY}, {".stp", GEOMETRY}, {".inp", INP}};
+} endings[] = {{".msh", MSH}, {".geo", GEO}, {".step", STEP}, {".stp", STEP}, {".inp", INP}};
 enum { ENDINGS = sizeof endings / sizeof endings[0] };
 
 static mesh_format format_of(const char *path) {
@@ -18,6 +17,22 @@ static mesh_format format_of(const char *path) {
     if (strcasecmp(dot, endings[i].ending) == 0)
       return endings[i].format;
   return FORMATS;
+}
+
+/* gmsh opens geometry itself but does not say when it cannot; and Open CASCADE below it writes on
+ * the terminal when a STEP file is none or is cut off (ISO 10303-21 gives its first and last line).
+ */
+static cdem_status check_geometry(const cdem_text *text, mesh_format format, cdem_fault *fault) {
+  static const char first[] = "ISO-10303-21;", last[] = "END-ISO-10303-21;";
+  CDEM_REQUIRE(text->size > 0, fault, CDEM_INPUT, "the file is empty");
+  if (format != STEP)
+    return CDEM_OK;
+  int64_t head = text->size < 4096 ? text->size : 4096;
+  CDEM_REQUIRE(memmem(text->data, (size_t)head, first, sizeof first - 1) != NULL, fault, CDEM_INPUT,
+               "line 1: the file does not start with %s: it is no STEP file", first);
+  CDEM_REQUIRE(memmem(text->end - head, (size_t)head, last, sizeof last - 1) != NULL, fault,
+               CDEM_INPUT, "the file does not end with %s; it is not complete", last);
+  return CDEM_OK;
 }
 
 static cdem_status read_text(const char *path, mesh_format format, cdem_mesh_builder *builder,
@@ -29,10 +44,10 @@ static cdem_status read_text(const char *path, mesh_format format, cdem_mesh_bui
     status = cdem_read_msh(&text, builder, fault);
   else if (format == INP)
     status = cdem_read_inp(&text, builder, fault);
-  else /* gmsh opens the file itself, but does not say when it cannot */
-    status = text.size > 0 ? CDEM_OK : cdem_fail(fault, CDEM_INPUT, "the file is empty");
+  else
+    status = check_geometry(&text, format, fault);
   cdem_text_release(&text);
-  if (status == CDEM_OK && format == GEOMETRY)
+  if (status == CDEM_OK && (format == GEO || format == STEP))
     status = cdem_read_geometry(path, builder, fault);
   return status;
 }

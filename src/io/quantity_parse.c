@@ -6,7 +6,10 @@
 #include <ctype.h>
 #include <locale.h>
 #include <math.h>
+#include <string.h>
 #include <udunits2.h>
+
+enum { LONGEST_UNIT = 95 };
 
 static cdem_status fail_unit(const char *text, const char *unit, cdem_dimension dimension,
                              cdem_fault *fault) {
@@ -16,19 +19,34 @@ static cdem_status fail_unit(const char *text, const char *unit, cdem_dimension 
                    text, unit, cdem_dimension_unit(dimension, expected));
 }
 
-/* Scale of `unit` against the SI unit of the dimension. UDUNITS' own scanner reads numbers in a
- * unit ("1e3 kg") by the locale, so the C locale holds meanwhile. */
+/* UDUNITS reads numbers by the locale, in units ("1e3 kg") and in its database; the C locale holds
+ * for this thread meanwhile. */
+typedef struct {
+  locale_t c, before;
+} c_locale;
+
+static c_locale enter_c_locale(void) {
+  c_locale locale = {newlocale(LC_ALL_MASK, "C", (locale_t)0), (locale_t)0};
+  if (locale.c != (locale_t)0)
+    locale.before = uselocale(locale.c);
+  return locale;
+}
+
+static void leave_c_locale(c_locale locale) {
+  if (locale.c == (locale_t)0)
+    return;
+  uselocale(locale.before);
+  freelocale(locale.c);
+}
+
+/* Scale of `unit` against the SI unit of the dimension. */
 static cdem_status unit_scale(ut_system *system, const char *text, const char *unit,
                               cdem_dimension dimension, double *scale, cdem_fault *fault) {
   char si_text[48];
   cdem_dimension_unit(dimension, si_text);
-  locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-  locale_t before = c != (locale_t)0 ? uselocale(c) : (locale_t)0;
+  c_locale locale = enter_c_locale();
   ut_unit *from = ut_parse(system, unit, UT_UTF8), *si = ut_parse(system, si_text, UT_UTF8);
-  if (c != (locale_t)0) {
-    uselocale(before);
-    freelocale(c);
-  }
+  leave_c_locale(locale);
   cdem_status status = CDEM_OK;
   double zero = 0.0;
   cv_converter *convert = NULL;
@@ -55,7 +73,9 @@ static cdem_status open_system(cdem_units *units, const char *text, cdem_fault *
   if (units->system != NULL)
     return CDEM_OK;
   ut_set_error_message_handler(ut_ignore);
+  c_locale locale = enter_c_locale();
   units->system = ut_read_xml(NULL);
+  leave_c_locale(locale);
   CDEM_REQUIRE(units->system != NULL, fault, CDEM_FILE,
                "cannot read the unit database of UDUNITS for '%s'; install the package "
                "libudunits2-data or give plain numbers in SI units",
@@ -81,15 +101,23 @@ cdem_status cdem_units_parse(cdem_units *units, const char *text, cdem_dimension
   CDEM_REQUIRE(end != begin && tolower((unsigned char)begin[sign + 1]) != 'x', fault, CDEM_INPUT,
                "'%s' is not a number", text);
   CDEM_REQUIRE(isfinite(number), fault, CDEM_INPUT, "'%s' is too large for a number", text);
-  const char *unit = end + strspn(end, " \t");
-  if (*unit == '\0') {
-    *value = number;
-    return CDEM_OK;
-  }
-  CDEM_REQUIRE(!isdigit((unsigned char)*unit) && *unit != '.' && *unit != ',', fault, CDEM_INPUT,
+  end += strspn(end, " \t");
+  CDEM_REQUIRE(!isdigit((unsigned char)*end) && *end != '.' && *end != ',', fault, CDEM_INPUT,
                "'%s' is not one number; write thousands without separators and decimals with a "
                "point",
                text);
+  char unit[LONGEST_UNIT + 1]; /* without the spaces at its end, which UDUNITS refuses */
+  size_t length = strlen(end);
+  while (length > 0 && (end[length - 1] == ' ' || end[length - 1] == '\t'))
+    length--;
+  if (length > LONGEST_UNIT)
+    return fail_unit(text, end, dimension, fault);
+  memcpy(unit, end, length);
+  unit[length] = '\0';
+  if (length == 0) {
+    *value = number;
+    return CDEM_OK;
+  }
   double scale = 1.0;
   CDEM_TRY(open_system(units, text, fault));
   CDEM_TRY(unit_scale(units->system, text, unit, dimension, &scale, fault));

@@ -3,7 +3,7 @@
  * /springs/NAME has one row per pair. element, node_i, node_j, kind, class, form and cond have one
  * value a row; stiffness, coupling, couples_to, dir_* and dual_* one for each of the first `dofs`
  * springs. What does not fit there - a frame's fourth spring, a second coupling of one spring -
- * stands in /springs/extra/NAME, `pair` being the row it belongs to. kind, class and form are small
+ * stands in /extra/NAME, `pair` being the row it belongs to. kind, class and form are small
  * integers whose names are the attribute `names`. /nodes holds tags and coordinates.
  *
  * Encoding lays a chunk's columns one behind the other in the buffer; writing copies them to one
@@ -385,7 +385,7 @@ static cdem_status put_settings(h5_writer *h5, cdem_fault *fault) {
                                              : CDEM_SPRINGS_FORMULA) &&
       put_text(h5->file, "layout",
                "row p of /springs is a pair; columns of two dimensions hold springs 1 .. dofs; "
-               "couples_to counts springs from 1, 0 is none; /springs/extra holds further rows of "
+               "couples_to counts springs from 1, 0 is none; /extra holds further rows of "
                "pair p; the attribute names of kind, class and form lists what the integers mean");
   if (good && plane)
     good = put_text(h5->file, "plane",
@@ -466,7 +466,7 @@ static cdem_status create_tables(h5_writer *h5, cdem_fault *fault) {
   hid_t group[TABLES] = {-1, -1};
   group[PAIRS] = H5Gcreate2(h5->file, "springs", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   if (group[PAIRS] >= 0)
-    group[EXTRA] = H5Gcreate2(group[PAIRS], "extra", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    group[EXTRA] = H5Gcreate2(h5->file, "extra", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   bool good = group[EXTRA] >= 0;
   for (int c = 0; c < COLUMNS && good; c++)
     if (has(h5->model, c))

@@ -11,6 +11,7 @@
  * negative stiffness (tests/io/ccx.sh). */
 #include "io/output.h"
 #include "io/springs_matrix.h"
+#include "io/text.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -25,7 +26,7 @@ enum { FIELD = 20 };
 typedef struct {
   int32_t position[2]; /* [1] = -1: a spring to the ground */
   uint8_t component[2];
-  char value[FIELD + 4];
+  double stiffness;
 } inp_spring;
 
 typedef struct {
@@ -47,22 +48,22 @@ static void put_field(char text[FIELD + 4], double value) {
   snprintf(text + whole + 1, FIELD + 4 - whole - 1, "%s", raw + whole + sign);
 }
 
+/* Equal springs side by side. */
 static int by_kind(const void *left, const void *right) {
   const inp_spring *a = left, *b = right;
   int by_component = memcmp(a->component, b->component, sizeof a->component);
-  int by_value = strcmp(a->value, b->value);
-  if (by_component != 0 || by_value != 0)
-    return by_component != 0 ? by_component : by_value;
+  if (by_component != 0)
+    return by_component;
+  if (a->stiffness != b->stiffness)
+    return a->stiffness < b->stiffness ? -1 : 1;
   for (int i = 0; i < 2; i++)
     if (a->position[i] != b->position[i])
       return a->position[i] < b->position[i] ? -1 : 1;
   return 0;
 }
 
-static cdem_status add_spring(inp_list *list, inp_spring spring, double stiffness,
-                              cdem_fault *fault) {
+static cdem_status add_spring(inp_list *list, inp_spring spring, cdem_fault *fault) {
   CDEM_TRY(cdem_grow(&list->spring, &list->capacity, list->springs + 1, sizeof spring, fault));
-  put_field(spring.value, stiffness);
   list->spring[list->springs++] = spring;
   return CDEM_OK;
 }
@@ -80,14 +81,14 @@ static cdem_status add_row(const cdem_sparse *sparse, int32_t p, int a, double l
       sum += value;
       if (q < p || (q == p && b <= a) || fabs(value) <= DROP * largest)
         continue;
-      const inp_spring spring = {.position = {p, q}, .component = {(uint8_t)a, (uint8_t)b}};
-      CDEM_TRY(add_spring(list, spring, -value, fault));
+      const inp_spring spring = {{p, q}, {(uint8_t)a, (uint8_t)b}, -value};
+      CDEM_TRY(add_spring(list, spring, fault));
     }
   }
   if (fabs(sum) <= CDEM_MATRIX_ROUNDING * largest)
     return CDEM_OK;
-  const inp_spring ground = {.position = {p, -1}, .component = {(uint8_t)a, UINT8_MAX}};
-  return add_spring(list, ground, sum, fault);
+  const inp_spring ground = {{p, -1}, {(uint8_t)a, UINT8_MAX}, sum};
+  return add_spring(list, ground, fault);
 }
 
 static void put_nodes(const cdem_matrix_writer *matrix, FILE *stream) {
@@ -114,29 +115,41 @@ static void put_nodes(const cdem_matrix_writer *matrix, FILE *stream) {
     fputs("** a plane network has no stiffness across its plane\n*BOUNDARY\nNall,3,3\n", stream);
 }
 
-/* Springs of equal stiffness and components share one set. */
+/* "ELEMENT,NODE[,NODE]". */
+static void put_element(FILE *stream, int64_t number, int64_t first, int64_t second, bool ground) {
+  char line[3 * CDEM_INTEGER_WIDTH + 4], *at = cdem_put_integer(line, number);
+  *at++ = ',';
+  at = cdem_put_integer(at, first);
+  if (!ground) {
+    *at++ = ',';
+    at = cdem_put_integer(at, second);
+  }
+  *at++ = '\n';
+  fwrite(line, 1, (size_t)(at - line), stream);
+}
+
+/* Springs whose components and written stiffness are equal share one set. */
 static void put_springs(const cdem_matrix_writer *matrix, const inp_list *list, FILE *stream) {
   const int64_t *tag = matrix->model->mesh->node_tag;
   const int32_t *node = matrix->sparse.node;
+  char value[FIELD + 4] = "", next[FIELD + 4];
   int64_t set = 0;
-  for (int64_t i = 0; i < list->springs;) {
-    const inp_spring *first = &list->spring[i];
-    bool ground = first->position[1] < 0;
-    fprintf(stream, "*ELEMENT, TYPE=SPRING%d, ELSET=S%" PRId64 "\n", ground ? 1 : 2, ++set);
-    for (; i < list->springs; i++) {
-      const inp_spring *s = &list->spring[i];
-      if (memcmp(s->component, first->component, sizeof s->component) != 0 ||
-          strcmp(s->value, first->value) != 0)
-        break;
-      fprintf(stream, "%" PRId64 ",%" PRId64, i + 1, tag[node[s->position[0]]]);
+  for (int64_t i = 0; i < list->springs; i++) {
+    const inp_spring *s = &list->spring[i];
+    bool ground = s->position[1] < 0;
+    if (i == 0 || s->stiffness != s[-1].stiffness)
+      put_field(next, s->stiffness);
+    if (i == 0 || memcmp(s->component, s[-1].component, sizeof s->component) != 0 ||
+        strcmp(next, value) != 0) {
+      memcpy(value, next, sizeof value);
+      fprintf(stream, "*SPRING, ELSET=S%" PRId64 "\n%d", ++set, s->component[0] + 1);
       if (!ground)
-        fprintf(stream, ",%" PRId64, tag[node[s->position[1]]]);
-      fputc('\n', stream);
+        fprintf(stream, ",%d", s->component[1] + 1);
+      fprintf(stream, "\n%s\n*ELEMENT, TYPE=SPRING%d, ELSET=S%" PRId64 "\n", value, ground ? 1 : 2,
+              set);
     }
-    fprintf(stream, "*SPRING, ELSET=S%" PRId64 "\n%d", set, first->component[0] + 1);
-    if (!ground)
-      fprintf(stream, ",%d", first->component[1] + 1);
-    fprintf(stream, "\n%s\n", first->value);
+    put_element(stream, i + 1, tag[node[s->position[0]]], ground ? 0 : tag[node[s->position[1]]],
+                ground);
   }
 }
 

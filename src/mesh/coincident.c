@@ -134,8 +134,9 @@ cdem_status cdem_mesh_coincident_nodes(const cdem_mesh *mesh, const int32_t *cel
   if (status == CDEM_OK)
     status = fill_table(mesh, &table, fault);
   if (status == CDEM_OK) {
-    /* 2^-48 keeps the cube numbers whole in a double; 2^-1000 when all nodes are at 0. */
-    table.side = fmax(fmax(8 * tolerance, largest * 0x1p-48), 0x1p-1000);
+    /* Not a round multiple: nodes of a regular grid would all lie on faces of the cubes. 2^-48
+     * keeps the cube numbers whole in a double; 2^-1000 when all nodes are at 0. */
+    table.side = fmax(fmax(8.7548776662466927 * tolerance, largest * 0x1p-48), 0x1p-1000);
     int64_t found = 0;
     int32_t a = -1, b = -1;
     for (int32_t n = 0; n < mesh->nodes; n++) {

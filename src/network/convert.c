@@ -5,7 +5,9 @@
  * for any number of threads. */
 #include "network/network.h"
 
+#include <math.h>
 #include <omp.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -229,36 +231,62 @@ static cdem_status write_out(const conversion *task, const cdem_chunk *chunk, co
                               task->model->cells, fault);
 }
 
-/* One thread's share: any chunk that is free next, its output in the order of the chunks. */
-static void convert_in_team(const conversion *task, cdem_status *status, cdem_fault *fault) {
+/* Chunks are taken by any thread and handed out in order: who is early sleeps until it is its turn.
+ */
+typedef struct {
+  pthread_mutex_t lock;
+  pthread_cond_t turned;
+  int64_t chunks, next, turn; /* next chunk to take, chunk whose turn it is to be written */
+  cdem_status status;         /* the first failure, in the order of the chunks */
+  cdem_fault fault;
+} queue;
+
+/* The next chunk, or -1 when all are taken or one has failed. */
+static int64_t take_chunk(queue *q) {
+  pthread_mutex_lock(&q->lock);
+  int64_t chunk = q->status == CDEM_OK && q->next < q->chunks ? q->next++ : -1;
+  pthread_mutex_unlock(&q->lock);
+  return chunk;
+}
+
+/* Writes a converted chunk when its turn comes. */
+static void hand_over(const conversion *task, queue *q, int64_t number, const cdem_chunk *chunk,
+                      const workspace *work, cdem_status status, cdem_fault *own) {
+  int32_t done = (int32_t)fmin((double)(number + 1) * task->chunk_cells, task->model->cells);
+  pthread_mutex_lock(&q->lock);
+  while (q->turn != number)
+    pthread_cond_wait(&q->turned, &q->lock);
+  bool go_on = q->status == CDEM_OK;
+  pthread_mutex_unlock(&q->lock);
+  if (go_on && status == CDEM_OK)
+    status = write_out(task, chunk, work, done, own);
+  pthread_mutex_lock(&q->lock);
+  if (go_on && status != CDEM_OK) {
+    q->status = status;
+    q->fault = *own;
+  }
+  q->turn++;
+  pthread_cond_broadcast(&q->turned);
+  pthread_mutex_unlock(&q->lock);
+}
+
+/* One thread's share. A thread without memory takes no chunk; when none has any, the work has
+ * failed. */
+static void convert_in_team(const conversion *task, queue *q, int64_t *ready_threads) {
   const cdem_model *model = task->model;
-  int64_t chunks = ((int64_t)model->cells + task->chunk_cells - 1) / task->chunk_cells;
   workspace work = {0};
   cdem_fault own = {0};
-  cdem_status ready = workspace_init(task, &work, &own);
-#pragma omp for ordered schedule(dynamic, 1)
-  for (int64_t c = 0; c < chunks; c++) {
-    int32_t first = (int32_t)(c * task->chunk_cells), last = first + task->chunk_cells;
-    last = last > model->cells ? model->cells : last;
-    cdem_status failed, stop;
-#pragma omp atomic read
-    stop = *status;
-    failed = ready;
-    cdem_chunk chunk = {.model = model, .pair = work.pair};
-    if (stop == CDEM_OK && failed == CDEM_OK)
-      failed = convert_chunk(task, first, last, &work, &chunk.pairs, &own);
-    if (stop == CDEM_OK && failed == CDEM_OK)
-      failed = encode(task, &chunk, &work, &own);
-#pragma omp ordered
-    {
-      if (*status == CDEM_OK && failed == CDEM_OK)
-        failed = write_out(task, &chunk, &work, last, &own);
-      if (*status == CDEM_OK && failed != CDEM_OK) {
-        if (fault != NULL)
-          *fault = own;
-#pragma omp atomic write
-        *status = failed;
-      }
+  if (workspace_init(task, &work, &own) == CDEM_OK) {
+#pragma omp atomic
+    ++*ready_threads;
+    for (int64_t c = take_chunk(q); c >= 0; c = take_chunk(q)) {
+      int32_t first = (int32_t)(c * task->chunk_cells), last = first + task->chunk_cells;
+      cdem_chunk chunk = {.model = model, .pair = work.pair};
+      cdem_status status = convert_chunk(task, first, last < model->cells ? last : model->cells,
+                                         &work, &chunk.pairs, &own);
+      if (status == CDEM_OK)
+        status = encode(task, &chunk, &work, &own);
+      hand_over(task, q, c, &chunk, &work, status, &own);
     }
   }
   workspace_release(&work, task->sink_count);
@@ -279,9 +307,17 @@ cdem_status cdem_network_convert(const cdem_model *model, const cdem_convert_opt
                            .sink_count = sink_count,
                            .chunk_cells = cells,
                            .chunk_pairs = (int64_t)cells * most};
+  queue q = {.lock = PTHREAD_MUTEX_INITIALIZER,
+             .turned = PTHREAD_COND_INITIALIZER,
+             .chunks = ((int64_t)model->cells + cells - 1) / cells};
   int threads = options->threads > 0 ? options->threads : omp_get_max_threads();
-  cdem_status status = CDEM_OK;
+  int64_t ready_threads = 0;
 #pragma omp parallel num_threads(threads)
-  convert_in_team(&task, &status, fault);
-  return status;
+  convert_in_team(&task, &q, &ready_threads);
+  if (ready_threads == 0)
+    return cdem_fail(fault, CDEM_MEMORY, "out of memory: no room for a chunk of %d elements",
+                     (int)cells);
+  if (q.status != CDEM_OK && fault != NULL && fault->status == CDEM_OK)
+    *fault = q.fault;
+  return q.status;
 }

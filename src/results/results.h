@@ -76,7 +76,8 @@ void cdem_check_list_release(cdem_check_list *list);
 bool cdem_check_passes(const cdem_check *check);
 
 /* A figure: panels side by side, each with curves over a common x. All strings are copied by
- * nobody: they must outlive the drawing. */
+ * nobody: they must outlive the drawing. Texts are UTF-8 and know gnuplot's markup: k_1 and
+ * k_{12} are subscripts, m^2 is raised; a literal underscore is written \_. */
 typedef struct {
   const char *title;   /* legend entry */
   const double *x, *y; /* [points]; NaN breaks the line */

@@ -172,8 +172,7 @@ static cdem_spring_row *add_row(const cdem_canonical *canonical, int k, cdem_spr
   return row;
 }
 
-void cdem_canonical_store(cdem_canonical *canonical, int exponent, double bound,
-                          cdem_spring_set *set) {
+void cdem_canonical_store(cdem_canonical *canonical, int exponent, cdem_spring_set *set) {
   make_canonical(canonical);
   int n = canonical->size;
   memset(set, 0, sizeof *set);
@@ -185,14 +184,14 @@ void cdem_canonical_store(cdem_canonical *canonical, int exponent, double bound,
     cdem_spring_row *row = add_row(canonical, k, set);
     row->stiffness = ldexp((double)canonical->l[k][k], exponent) + 0.0;
     for (int j = 0; j < n; j++)
-      if (j != k && fabsl(canonical->l[k][j]) > bound && row->couples_to == 0) {
+      if (j != k && canonical->l[k][j] != 0.0L && row->couples_to == 0) {
         row->couples_to = (int8_t)(j + 1);
         row->coupling = ldexp((double)canonical->l[k][j], exponent);
       }
   }
   for (int k = 0; k < n; k++)
     for (int j = 0; j < n; j++)
-      if (j != k && fabsl(canonical->l[k][j]) > bound && j + 1 != set->row[k].couples_to) {
+      if (j != k && canonical->l[k][j] != 0.0L && j + 1 != set->row[k].couples_to) {
         cdem_spring_row *extra = add_row(canonical, k, set);
         extra->couples_to = (int8_t)(j + 1);
         extra->coupling = ldexp((double)canonical->l[k][j], exponent);

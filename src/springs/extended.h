@@ -56,9 +56,7 @@ void cdem_plane_schur(const cdem_plane *plane, long double bound, long double a[
 /* Fills q from p, and cond by LAPACK's singular values. False when P is singular. */
 bool cdem_canonical_invert(cdem_canonical *canonical);
 
-/* Canonical signs and order, rounding to double, rows; the block was divided by 2^exponent.
- * Couplings below `bound` of the scaled block leave no row. */
-void cdem_canonical_store(cdem_canonical *canonical, int exponent, double bound,
-                          cdem_spring_set *set);
+/* Canonical signs and order, rounding to double, rows; the block was divided by 2^exponent. */
+void cdem_canonical_store(cdem_canonical *canonical, int exponent, cdem_spring_set *set);
 
 #endif

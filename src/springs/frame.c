@@ -20,9 +20,12 @@ static void put_row(cdem_spring_row *row, int spring, double stiffness, const do
 void cdem_springs_frame(double k1, double k2, const double d[3], cdem_spring_set *set) {
   const double cosine = -0.5, sine = 0.5 * sqrt(3.0);
   double axis[3], least[3], u[3], w[3], dir[3];
-  double factor = cdem_springs_sign(d) / cdem_norm3(d);
+  double length = cdem_norm3(d);
   for (int c = 0; c < 3; c++)
-    axis[c] = factor * d[c];
+    axis[c] = d[c] / length;
+  double sign = cdem_springs_sign(axis);
+  for (int c = 0; c < 3; c++)
+    axis[c] *= sign;
   cdem_springs_least_axis(axis, least);
   cdem_springs_plane_basis(axis, least, u, w);
   memset(set, 0, sizeof *set);

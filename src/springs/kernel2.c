@@ -38,8 +38,10 @@ CDEM_MULTIVERSION void cdem_springs_kernel2(const double *restrict s, int batche
       const double bound2 = 0.01 * CDEM_SPRINGS_BOUND * CDEM_SPRINGS_BOUND;
       batch->cond[lane] = cond;
       batch->conjugate[lane] = pair.conjugate ? 1.0 : 0.0;
-      batch->accepted[lane] =
-          (error <= bound2 * norm2) & (cond <= CDEM_SPRINGS_MAX_COND) & (unscale > 0.0) ? 1.0 : 0.0;
+      batch->accepted[lane] = (error <= bound2 * norm2) & (cond <= CDEM_SPRINGS_MAX_COND) &
+                                      (unscale > 0.0) & (norm2 > 0.0)
+                                  ? 1.0
+                                  : 0.0;
       batch->row[0][0][lane] = k0 * unscale + 0.0, batch->row[0][1][lane] = coupling * unscale;
       batch->row[1][0][lane] = k1 * unscale + 0.0,
       batch->row[1][1][lane] = 0.0 - coupling * unscale;

@@ -251,7 +251,8 @@ CDEM_MULTIVERSION void cdem_springs_kernel3_directions(int batches, cdem_batch *
       combine(pair.a[0], pair.a[1], u, w, two);
       combine(pair.b[0], pair.b[1], u, w, three);
       double sign2 = cdem_springs_sign(two), sign3 = cdem_springs_sign(three);
-      turn(cdem_springs_sign(one) * length, one);
+      turn(length, one);
+    turn(cdem_springs_sign(one), one);
       turn(sign2, two);
       turn(pair.conjugate ? sign2 : sign3, three);
       double k2 = pair.mean + (pair.conjugate ? 0.0 : pair.split);

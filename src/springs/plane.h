@@ -45,8 +45,10 @@ CDEM_ALWAYS_INLINE cdem_plane_pair cdem_solve_plane(const double m[4], int symme
   double a_minus_b = 2.0 * h * h + c * (b + c), twice_c = 2.0 * h * s, sum = c * (c - b);
   double spread2 = a_minus_b * a_minus_b + twice_c * twice_c;
   int circular = spread2 <= tiny2 * sum * sum;
-  double length0 = 1.0 / sqrt(conjugate ? 0.5 * sum : z * z + c * c);
-  double length1 = 1.0 / sqrt(conjugate ? spread2 + 1e-300 : z * z + b * b);
+  /* Weights, not choices: the compiler would branch, and take both roots in every lane. */
+  double weight = conjugate ? 1.0 : 0.0, other = 1.0 - weight;
+  double length0 = 1.0 / sqrt(weight * (0.5 * sum) + other * (z * z + c * c));
+  double length1 = 1.0 / sqrt(weight * spread2 + other * (z * z + b * b) + 1e-300);
   double cosine2 = twice_c * length1, sine2 = a_minus_b * length1;
   double big = sqrt(0.5 + 0.5 * fabs(conjugate ? cosine2 : 1.0)), small = 0.5 * sine2 / big;
   double cosine = cosine2 >= 0.0 ? big : small, sine = cosine2 >= 0.0 ? small : big;

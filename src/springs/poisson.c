@@ -300,7 +300,7 @@ static bool split_double(const double s[9], double *single, double *pair, double
 static cdem_status row_of_double(const cdem_poisson_study *study, double nu, cdem_poisson_row *row,
                                  cdem_fault *fault) {
   int size = study->family.size;
-  double s[9], single, pair, left[3];
+  double s[9], single, pair, left[3], axis[3];
   CDEM_TRY(study->family.block(study->family.context, nu, s, fault));
   empty_row(nu, size, CDEM_FORM_DIAGONAL, row);
   if (size == 2) {
@@ -315,7 +315,8 @@ static cdem_status row_of_double(const cdem_poisson_study *study, double nu, cde
     return row_by_decomposition(study, nu, row, fault);
   row->k[0] = single;
   row->k[1] = row->k[2] = pair;
-  cdem_springs_plane_basis(left, row->dir[1], row->dir[2]);
+  cdem_springs_least_axis(left, axis);
+  cdem_springs_plane_basis(left, axis, row->dir[1], row->dir[2]);
   normalise(row->dir[1]);
   normalise(row->dir[2]);
   row->cond = condition_of(&row->dir[0][0], 3);

@@ -191,12 +191,12 @@ static void improve(const problem *block, separation *single) {
     single->left[c] = next[c] / length;
 }
 
-/* The choice of a single value whose plane separates best. False when LAPACK fails. */
-static bool best_separation(const problem *block, const schur_form *form, const double wi[3],
-                            separation *best) {
-  bool conjugate = wi[0] != 0.0 || wi[1] != 0.0;
-  best->cond = INFINITY;
-  bool found = false;
+/* All choices of a single value, best separated first; returns their number. Several must be
+ * tried: beside a double value without defect, rounding may separate one of the two better than
+ * the third. */
+static int separations(const problem *block, const schur_form *form, const double wi[3],
+                       separation choice[3]) {
+  int count = 0;
   for (int from = 1; from <= 3; from++) {
     if (wi[from - 1] != 0.0)
       continue;
@@ -205,38 +205,57 @@ static bool best_separation(const problem *block, const schur_form *form, const 
     if (!move(&moved, from, 3))
       continue; /* values too close to change places */
     separate(&moved, &single);
-    if (!found || single.cond < best->cond)
-      *best = single;
-    found = true;
-    if (conjugate)
-      break;
-  }
-  if (found && best->cond <= 10.0 * CDEM_SPRINGS_MAX_COND)
+    if (single.cond > 10.0 * CDEM_SPRINGS_MAX_COND)
+      continue;
     for (int step = 0; step < 2; step++)
-      improve(block, best);
-  return found;
+      improve(block, &single);
+    int place_of = count++;
+    for (; place_of > 0 && choice[place_of - 1].cond > single.cond; place_of--)
+      choice[place_of] = choice[place_of - 1];
+    choice[place_of] = single;
+  }
+  return count;
 }
 
-/* Springs of a separated block: eigenvectors, or the plane's Schur block. False when cond(P) is
- * too large. */
-static bool separated_set(const problem *block, const separation *single, bool eigenvectors,
-                          cdem_canonical *canonical) {
+/* |P L P^-1 - S|_F: what a difference taken for rounding costs, cond(P) times its size. */
+static long double error_of(const problem *block, const cdem_canonical *canonical) {
+  long double error = 0.0L;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) {
+      long double difference = -block->s[3 * i + j];
+      for (int k = 0; k < 3; k++)
+        for (int m = 0; m < 3; m++)
+          difference += canonical->p[k][i] * canonical->l[k][m] * canonical->q[m][j];
+      error += difference * difference;
+    }
+  return sqrtl(error);
+}
+
+/* Springs of a separated block: eigenvectors, or the plane's Schur block, with differences below
+ * `bound` taken for rounding. False when cond(P) or the error is too large. */
+static bool separated_with(const problem *block, const separation *single, bool eigenvectors,
+                           double bound, cdem_canonical *canonical) {
   long double u[3], w[3], du[3], dw[3], a[2], b[2], l[2][2];
-  if (!isfinite(single->cond))
-    return false;
   plane_basis(single->left, u, w);
   cdem_plane plane = plane_of(block, u, w, du, dw);
   cdem_multiply3l(block->deviator, single->right, du);
   long double value = cdem_dot3l(single->left, du) / cdem_dot3l(single->left, single->right);
   canonical->size = 3;
   if (!eigenvectors)
-    cdem_plane_schur(&plane, block->bound, a, b, l, &canonical->form);
-  else if (!cdem_plane_eigenvectors(&plane, block->bound, a, b, l, &canonical->form))
+    cdem_plane_schur(&plane, bound, a, b, l, &canonical->form);
+  else if (!cdem_plane_eigenvectors(&plane, bound, a, b, l, &canonical->form))
     return false;
   place(canonical, single->right, u, w, a, b);
   put_plane(canonical, value, l);
   add_mean(canonical, block->mean);
-  return cdem_canonical_invert(canonical) && canonical->cond <= CDEM_SPRINGS_MAX_COND;
+  return cdem_canonical_invert(canonical) && canonical->cond <= CDEM_SPRINGS_MAX_COND &&
+         error_of(block, canonical) <= 10.0L * block->bound;
+}
+
+static bool separated_set(const problem *block, const separation *single, bool eigenvectors,
+                          cdem_canonical *canonical) {
+  return separated_with(block, single, eigenvectors, block->bound, canonical) ||
+         separated_with(block, single, eigenvectors, 0.0, canonical);
 }
 
 /* Singular vectors of the deviator: largest left and right, smallest right and its value. */
@@ -300,11 +319,14 @@ static bool staircase_set(const problem *block, const double v[9], double smalle
     canonical->l[k][k] = block->mean;
   canonical->l[0][1] = cdem_dot3l(canonical->p[0], d2);
   canonical->l[0][2] = cdem_dot3l(canonical->p[0], d3);
+  if (fabsl(canonical->l[0][2]) <= block->bound)
+    canonical->l[0][2] = 0.0L;
   return cdem_canonical_invert(canonical);
 }
 
 /* The whole block in its orthonormal Schur basis, always possible. Real values descend. */
-static bool whole_set(schur_form *form, const double wi[3], cdem_canonical *canonical) {
+static bool whole_set(const problem *block, schur_form *form, const double wi[3],
+                      cdem_canonical *canonical) {
   bool conjugate = wi[0] != 0.0 || wi[1] != 0.0;
   if (conjugate && form->t[1] != 0.0 && !move(form, 3, 1))
     return false;
@@ -332,6 +354,9 @@ static bool whole_set(schur_form *form, const double wi[3], cdem_canonical *cano
     long double b = canonical->l[1][2];
     canonical->l[1][2] = -canonical->l[2][1], canonical->l[2][1] = -b;
   }
+  for (int j = 1; j < 3; j++)
+    if (fabsl(canonical->l[0][j]) <= block->bound)
+      canonical->l[0][j] = 0.0L;
   memcpy(canonical->q, canonical->p, sizeof canonical->q);
   canonical->cond = 1.0;
   return true;
@@ -339,21 +364,23 @@ static bool whole_set(schur_form *form, const double wi[3], cdem_canonical *cano
 
 static bool general_set(const problem *block, cdem_canonical *canonical) {
   schur_form form;
-  separation best, decoupled;
+  separation choice[3], decoupled;
   double wi[3], u[9], v[9], value[3];
   if (!schur(block, &form, wi))
     return false;
-  bool separable = best_separation(block, &form, wi, &best);
-  if (separable && separated_set(block, &best, true, canonical))
-    return true;
+  int choices = separations(block, &form, wi, choice);
+  for (int i = 0; i < choices; i++)
+    if (separated_set(block, &choice[i], true, canonical))
+      return true;
   if (!singular_vectors(block, u, v, value))
     return false;
   if (decoupled_direction(block, u, v, &decoupled) &&
       separated_set(block, &decoupled, false, canonical))
     return true;
-  if (separable && separated_set(block, &best, false, canonical))
-    return true;
-  return staircase_set(block, v, value[2], canonical) || whole_set(&form, wi, canonical);
+  for (int i = 0; i < choices; i++)
+    if (separated_set(block, &choice[i], false, canonical))
+      return true;
+  return staircase_set(block, v, value[2], canonical) || whole_set(block, &form, wi, canonical);
 }
 
 static bool plane_set(const problem *block, cdem_canonical *canonical) {
@@ -410,6 +437,6 @@ cdem_status cdem_springs_from_block(const double *s, int size, bool frame, cdem_
       "stiffness block has no spring set: LAPACK finds no eigenvalues of a block with first "
       "row %g %g",
       s[0], s[1]);
-  cdem_canonical_store(&canonical, block.exponent, block.bound, set);
+  cdem_canonical_store(&canonical, block.exponent, set);
   return CDEM_OK;
 }

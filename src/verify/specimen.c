@@ -82,7 +82,8 @@ cdem_status cdem_specimen_init(const cdem_specimen_options *options, cdem_specim
   const cdem_specimen_options *o = &made.options;
   bool plane_stress =
       o->element->formulation != CDEM_SOLID && o->section.plane == CDEM_PLANE_STRESS;
-  made.regular = o->xyz == NULL && o->box[0] == o->box[1] &&
+  made.own_shape = o->xyz != NULL;
+  made.regular = !made.own_shape && o->box[0] == o->box[1] &&
                  (o->element->formulation != CDEM_SOLID || o->box[1] == o->box[2]);
   made.family = (cdem_poisson_family){.size = cdem_element_dofs(o->element),
                                       .factor = plane_stress ? cdem_poisson_factor_plane_stress
@@ -94,6 +95,7 @@ cdem_status cdem_specimen_init(const cdem_specimen_options *options, cdem_specim
     cdem_specimen_release(&made);
     return status;
   }
+  made.options.xyz = NULL;
   *specimen = made;
   return CDEM_OK;
 }
@@ -186,7 +188,7 @@ static bool pair_closed(void *context, double nu, cdem_closed *closed) {
     cdem_closed_triangle_edge(&sheet, closed);
     return true;
   }
-  if (strcmp(o->element->name, "quad4") == 0 && o->xyz == NULL) {
+  if (strcmp(o->element->name, "quad4") == 0 && !specimen->own_shape) {
     /* Edges 1-2, 3-4 run along x, the others along y. */
     bool along_x = specimen->xyz[pair->node[0]][1] == specimen->xyz[pair->node[1]][1];
     if (pair->class_ == CDEM_CLASS_EDGE)

@@ -23,7 +23,8 @@ typedef struct {
   double cosserat_ratio; /* Gc/G: kept while nu changes */
   double length;         /* characteristic length of Cosserat elements, m */
   double couple_factor;
-  const double (*xyz)[3]; /* [nodes] the element's own shape instead, m; NULL: reference */
+  /* [nodes] the element's own shape instead, m; NULL: reference. Copied, then NULL. */
+  const double (*xyz)[3];
 } cdem_specimen_options;
 
 typedef struct {
@@ -32,6 +33,7 @@ typedef struct {
   double xyz[CDEM_SHAPE_MAX_NODES][3];
   double *moment;             /* [pairs][features*features][CDEM_LANES] */
   cdem_poisson_family family; /* without context, closed and frame */
+  bool own_shape;             /* options.xyz was given */
   bool regular; /* reference shape with equal factors: the cube, the equilateral triangle */
 } cdem_specimen;
 

@@ -28,8 +28,9 @@
   X(depletion_lowest)     /* 10 class + 0, 1, 2: nu = 1/4, 0.2, 0.3; eigenvalue over E L */        \
   X(depletion_negative)   /* the same: 1 when an eigenvalue is negative */                         \
   X(depletion_rotations)  /* class: rotations that meet a force, at 1/4 */                         \
-  X(coefficient)          /* 0..5: numbers of eqs (12), (16), (21) */                              \
-  X(grid)                 /* 0..3: distorted hex8 grid: assembled, patch, zero modes, negative */
+  X(coefficient)          /* 10 class + 0, 1, 2: number before D, p, q of eqs (12), (16), (21) */  \
+  X(grid) /* 0..5: distorted hex8 grid: rebuild, translation, assembled, patch, zero, negative     \
+             modes */
 
 #define X(name)                                                                                    \
   cdem_status cdem_springs_measure_##name(int parameter, double *value, cdem_fault *fault);

@@ -74,6 +74,26 @@ static cdem_status run_check(const cdem_verify_group *group, const cdem_verifica
                         fault);
 }
 
+static int64_t count_checks(const cdem_verify_group *group, const cdem_verify_options *options) {
+  int64_t count = 0;
+  for (int i = 0; i < group->checks; i++)
+    count += options->slow || !group->check[i].slow;
+  return count;
+}
+
+cdem_status cdem_verify_run_group(const cdem_verify_group *group,
+                                  const cdem_verify_options *options, int64_t *done, int64_t total,
+                                  cdem_check_list *list, cdem_fault *fault) {
+  for (int i = 0; i < group->checks; i++) {
+    const cdem_verification *check = &group->check[i];
+    if (check->slow && !options->slow)
+      continue;
+    CDEM_TRY(cdem_progress_report(options->progress, "verifying", (*done)++, total, fault));
+    CDEM_TRY(run_check(group, check, options, list, fault));
+  }
+  return CDEM_OK;
+}
+
 cdem_status cdem_verify_run(const char *const *groups, int count,
                             const cdem_verify_options *options, cdem_check_list *list,
                             cdem_fault *fault) {
@@ -82,15 +102,10 @@ cdem_status cdem_verify_run(const char *const *groups, int count,
     if (cdem_verify_group_find(groups[i]) == NULL)
       return unknown_group(groups[i], fault);
   for (int g = 0; g < GROUPS; g++)
-    for (int i = 0; is_chosen(groups_known[g], groups, count) && i < groups_known[g]->checks; i++)
-      total += options->slow || !groups_known[g]->check[i].slow;
+    if (is_chosen(groups_known[g], groups, count))
+      total += count_checks(groups_known[g], options);
   for (int g = 0; g < GROUPS; g++)
-    for (int i = 0; is_chosen(groups_known[g], groups, count) && i < groups_known[g]->checks; i++) {
-      const cdem_verification *check = &groups_known[g]->check[i];
-      if (check->slow && !options->slow)
-        continue;
-      CDEM_TRY(cdem_progress_report(options->progress, "verifying", done++, total, fault));
-      CDEM_TRY(run_check(groups_known[g], check, options, list, fault));
-    }
+    if (is_chosen(groups_known[g], groups, count))
+      CDEM_TRY(cdem_verify_run_group(groups_known[g], options, &done, total, list, fault));
   return CDEM_OK;
 }

@@ -44,6 +44,11 @@ typedef struct {
   void (*skipped)(void *context, const char *group, const char *name, const char *reason);
 } cdem_verify_options;
 
+/* Runs one group, known to the table or not. `done` of `total` checks are reported as progress. */
+cdem_status cdem_verify_run_group(const cdem_verify_group *group,
+                                  const cdem_verify_options *options, int64_t *done, int64_t total,
+                                  cdem_check_list *list, cdem_fault *fault);
+
 /* Runs the groups of these names (count 0: all) and appends what was measured to *list. CDEM_USAGE
  * names an unknown group and the nearest known one; nothing has run then. */
 cdem_status cdem_verify_run(const char *const *groups, int count,

@@ -1,7 +1,7 @@
 /* Suggestions: one change is near, another word is not. */
-#include "support/test.h"
-
 #include "base/suggest.h"
+
+#include "support/test.h"
 
 static const char *const names[] = {"young", "poisson", "density", "characteristic_length", "e1"};
 
@@ -11,9 +11,9 @@ static const char *near(const char *word) {
 
 static void one_change_is_near(void **state) {
   (void)state;
-  assert_string_equal(near("yuong"), "young");   /* swapped */
-  assert_string_equal(near("yong"), "young");    /* left out */
-  assert_string_equal(near("youngs"), "young");  /* added */
+  assert_string_equal(near("yuong"), "young");     /* swapped */
+  assert_string_equal(near("yong"), "young");      /* left out */
+  assert_string_equal(near("youngs"), "young");    /* added */
   assert_string_equal(near("poissom"), "poisson"); /* changed */
   assert_string_equal(near("POISSON"), "poisson");
   assert_string_equal(near("characteristic_lenght"), "characteristic_length");

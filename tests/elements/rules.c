@@ -73,6 +73,7 @@ static void own_rules_are_as_stated(void **state) {
                 {"quad8", 9, 5},  {"tet4", 1, 1},          {"pyr5", 8, 3},
                 {"wedge6", 6, 2}, {"hex8", 8, 3},          {"tet10", 4, 2},
                 {"hex20", 27, 5}, {"tri3-cosserat", 3, 2}, {"quad4-cosserat", 4, 3}};
+  assert_int_equal(sizeof stated / sizeof *stated, CDEM_ELEMENT_COUNT); /* state a new one's too */
   for (size_t i = 0; i < sizeof stated / sizeof *stated; i++) {
     const cdem_element *element = cdem_element_find(stated[i].name);
     cdem_quadrature rule;

@@ -80,6 +80,18 @@ static void flat_elements_are_named(void **state) {
     assert_int_equal(check(element, xyz), CDEM_INPUT);
     assert_non_null(strstr(fault.message, "element is flat"));
   }
+  FOR_EACH_ELEMENT(element) { /* all on one line: here the areas are rounding too */
+    const double along[3] = {0.37, 0.71, -0.43};
+    double xyz[MAX_NODES][3];
+    distort(element, 0.3, 33, xyz);
+    for (int a = 0; a < cdem_element_nodes(element); a++) {
+      double place = xyz[a][0] + 0.3 * xyz[a][1];
+      for (int i = 0; i < 3; i++)
+        xyz[a][i] = place * along[i];
+    }
+    assert_int_equal(check(element, xyz), CDEM_INPUT);
+    assert_non_null(strstr(fault.message, "element is flat"));
+  }
   /* in national grid coordinates the line is straight only to rounding */
   const double far[3][3] = {
       {5e6 + 0.1, 4e6 + 0.1, 0}, {5e6 + 0.2, 4e6 + 0.2, 0}, {5e6 + 0.35, 4e6 + 0.35, 0}};
@@ -87,6 +99,37 @@ static void flat_elements_are_named(void **state) {
   double point[MAX_NODES][3] = {{0}};
   assert_int_equal(check(cdem_element_find("hex20"), point), CDEM_INPUT);
   assert_non_null(strstr(fault.message, "element is flat"));
+}
+
+/* A plate or strip of relative height h is flat below CDEM_FLAT_BOUND = 1e-12 and fine above. */
+static void height_decides_what_is_flat(void **state) {
+  (void)state;
+  FOR_EACH_ELEMENT(element) for (int thin = 0; thin < 2; thin++) {
+    int last = cdem_element_dimension(element) - 1;
+    double xyz[MAX_NODES][3];
+    memcpy(xyz, element->reference, sizeof *xyz * (size_t)cdem_element_nodes(element));
+    for (int a = 0; a < cdem_element_nodes(element); a++)
+      xyz[a][last] *= thin ? 1e-13 : 1e-11;
+    assert_int_equal(check(element, xyz), thin ? CDEM_INPUT : CDEM_OK);
+  }
+  /* In national grid coordinates a height of 1e-9 is rounding, a millimetre is not. */
+  double tet[4][3] = {{5e6, 4e6, 0}, {5e6 + 1, 4e6, 0}, {5e6, 4e6 + 1, 0}, {5e6, 4e6, 1e-9}};
+  check_says("tet4", (const double(*)[3])tet, "element is flat: its nodes lie in one plane");
+  tet[3][2] = 1e-3;
+  check_says("tet4", (const double(*)[3])tet, NULL);
+}
+
+/* A map whose derivatives all vanish at one point of the rule: (xi - 2/3 + i (eta - 1/6))^2. */
+static void vanishing_derivatives_are_degenerate(void **state) {
+  (void)state;
+  double xyz[6][3] = {{0}};
+  const cdem_element *element = cdem_element_find("tri6");
+  for (int a = 0; a < 6; a++) {
+    double u = element->reference[a][0] - 2.0 / 3, v = element->reference[a][1] - 1.0 / 6;
+    xyz[a][0] = u * u - v * v;
+    xyz[a][1] = 2 * u * v;
+  }
+  check_says("tri6", (const double(*)[3])xyz, "element is degenerate");
 }
 
 static void folded_elements_are_named(void **state) {
@@ -167,6 +210,8 @@ int main(void) {
       cmocka_unit_test(needles_pass),
       cmocka_unit_test(inverted_elements_are_named),
       cmocka_unit_test(flat_elements_are_named),
+      cmocka_unit_test(height_decides_what_is_flat),
+      cmocka_unit_test(vanishing_derivatives_are_degenerate),
       cmocka_unit_test(folded_elements_are_named),
       cmocka_unit_test(zero_at_a_corner_passes),
       cmocka_unit_test(degenerate_elements_are_named),

@@ -64,27 +64,27 @@ static void load_springs(const char *path, const char *third, springs_file *f) {
   f->stiffness = reals(f, "/springs/stiffness", f->size, &f->pairs);
   f->coupling = reals(f, "/springs/coupling", f->size, &f->pairs);
   f->couples_to = codes(f, "/springs/couples_to", f->size, &f->pairs);
-  f->x_pair = tags(f, "/springs/extra/pair", &f->extras);
-  f->x_spring = codes(f, "/springs/extra/spring", 1, &f->extras);
-  f->x_couples_to = codes(f, "/springs/extra/couples_to", 1, &f->extras);
-  f->x_stiffness = reals(f, "/springs/extra/stiffness", 1, &f->extras);
-  f->x_coupling = reals(f, "/springs/extra/coupling", 1, &f->extras);
+  f->x_pair = tags(f, "/extra/pair", &f->extras);
+  f->x_spring = codes(f, "/extra/spring", 1, &f->extras);
+  f->x_couples_to = codes(f, "/extra/couples_to", 1, &f->extras);
+  f->x_stiffness = reals(f, "/extra/stiffness", 1, &f->extras);
+  f->x_coupling = reals(f, "/extra/coupling", 1, &f->extras);
   for (int a = 0; a < f->size; a++) {
     snprintf(name, sizeof name, "/springs/dir_%s", axis[a]);
     f->dir[a] = reals(f, name, f->size, &f->pairs);
     snprintf(name, sizeof name, "/springs/dual_%s", axis[a]);
     f->dual[a] = reals(f, name, f->size, &f->pairs);
-    snprintf(name, sizeof name, "/springs/extra/dir_%s", axis[a]);
+    snprintf(name, sizeof name, "/extra/dir_%s", axis[a]);
     f->x_dir[a] = reals(f, name, 1, &f->extras);
-    snprintf(name, sizeof name, "/springs/extra/dual_%s", axis[a]);
+    snprintf(name, sizeof name, "/extra/dual_%s", axis[a]);
     f->x_dual[a] = reals(f, name, 1, &f->extras);
   }
 }
 
 static void unload_springs(springs_file *f) {
-  void *all[] = {f->element, f->node_i, f->node_j, f->cond, f->kind, f->class_, f->form,
-                 f->stiffness, f->coupling, f->couples_to, f->x_pair, f->x_spring, f->x_couples_to,
-                 f->x_stiffness, f->x_coupling};
+  void *all[] = {f->element, f->node_i,   f->node_j,       f->cond,        f->kind,
+                 f->class_,  f->form,     f->stiffness,    f->coupling,    f->couples_to,
+                 f->x_pair,  f->x_spring, f->x_couples_to, f->x_stiffness, f->x_coupling};
   for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
     free(all[i]);
   for (int a = 0; a < 3; a++) {
@@ -184,7 +184,8 @@ static void cosserat_elements(void **state) {
   round_trip("quad4-cosserat", "rz", 6, 1);
 }
 
-/* More pairs than a stage holds, so that several HDF5 chunks and the seam between them are there. */
+/* More pairs than a stage holds, so that several HDF5 chunks and the seam between them are there.
+ */
 static void many_pairs(void **state) {
   (void)state;
   round_trip("hex8", "z", 27, 2500);

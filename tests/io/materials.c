@@ -16,14 +16,22 @@ static void quantities_become_si(void **state) {
     cdem_dimension dimension;
     double value;
   } cases[] = {
-      {"40 GPa", {-1, -2, 1}, 40e9},        {"40e9", {-1, -2, 1}, 40e9},
-      {"4.0e+4 MPa", {-1, -2, 1}, 40e9},    {"60 mm", {1, 0, 0}, 0.06},
-      {"60mm", {1, 0, 0}, 0.06},            {"  -2.5e-3  ", {0, 0, 0}, -2.5e-3},
-      {"2700 kg/m3", {-3, 0, 1}, 2700},     {"2.7 g/cm3", {-3, 0, 1}, 2700},
-      {"2700 kg m-3 ", {-3, 0, 1}, 2700},   {"3 kN", {1, -2, 1}, 3000},
-      {"25 %", {0, 0, 0}, 0.25},            {".5", {0, 0, 0}, 0.5},
-      {"+1", {0, 0, 0}, 1},                 {"1 psi", {-1, -2, 1}, 6894.757293168361},
-      {"12 N/mm2", {-1, -2, 1}, 12e6},      {"2 µm", {1, 0, 0}, 2e-6},
+      {"40 GPa", {-1, -2, 1}, 40e9},
+      {"40e9", {-1, -2, 1}, 40e9},
+      {"4.0e+4 MPa", {-1, -2, 1}, 40e9},
+      {"60 mm", {1, 0, 0}, 0.06},
+      {"60mm", {1, 0, 0}, 0.06},
+      {"  -2.5e-3  ", {0, 0, 0}, -2.5e-3},
+      {"2700 kg/m3", {-3, 0, 1}, 2700},
+      {"2.7 g/cm3", {-3, 0, 1}, 2700},
+      {"2700 kg m-3 ", {-3, 0, 1}, 2700},
+      {"3 kN", {1, -2, 1}, 3000},
+      {"25 %", {0, 0, 0}, 0.25},
+      {".5", {0, 0, 0}, 0.5},
+      {"+1", {0, 0, 0}, 1},
+      {"1 psi", {-1, -2, 1}, 6894.757293168361},
+      {"12 N/mm2", {-1, -2, 1}, 12e6},
+      {"2 µm", {1, 0, 0}, 2e-6},
   };
   for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
     cdem_fault fault = {0};
@@ -252,11 +260,15 @@ static void several_errors_are_told_at_once(void **state) {
   (void)state;
   cdem_fault fault = {0};
   cdem_material_file file;
-  assert_int_equal(read_text("yuong: 1\npoison: 2\nmodle: isotropic\na: 1\nb: 1\nc: 1\n", &file,
-                             &fault),
-                   CDEM_INPUT);
-  const char *const parts[] = {"m.yaml:1:1: unknown key 'yuong'", "\n/tmp/", "m.yaml:2:1:",
-                               "did you mean 'poisson'?", "did you mean 'model'?", "m.yaml:5:1:",
+  assert_int_equal(
+      read_text("yuong: 1\npoison: 2\nmodle: isotropic\na: 1\nb: 1\nc: 1\n", &file, &fault),
+      CDEM_INPUT);
+  const char *const parts[] = {"m.yaml:1:1: unknown key 'yuong'",
+                               "\n/tmp/",
+                               "m.yaml:2:1:",
+                               "did you mean 'poisson'?",
+                               "did you mean 'model'?",
+                               "m.yaml:5:1:",
                                "\nand 2 more errors"};
   for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
     if (strstr(fault.message, parts[i]) == NULL)

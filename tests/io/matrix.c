@@ -1,7 +1,6 @@
 /* The assembled network as Matrix Market and as a CalculiX deck: the files hold the finite-element
  * matrix itself, and CalculiX moves the springs as the elements would move. */
 #include "io/support.h"
-
 #include "network/assemble.h"
 
 #include <lapacke.h>
@@ -81,8 +80,8 @@ static void check_matrix(const network *n, const double *k) {
     check_near(k[i], n->k[i], 0, 1.6e-11 * largest(n));
 }
 
-static void read_mtx(const network *n, const char *path, const char *symmetry,
-                     const char *tags, double *k) {
+static void read_mtx(const network *n, const char *path, const char *symmetry, const char *tags,
+                     double *k) {
   char *text = read_whole(path, NULL), *line = text, expected[64];
   snprintf(expected, sizeof expected, "%%%%MatrixMarket matrix coordinate real %s\n", symmetry);
   assert_memory_equal(text, expected, strlen(expected));
@@ -135,8 +134,7 @@ static void unsymmetric_networks_are_general(void **state) {
   network n = {.rows = 24};
   double k[MOST * MOST];
   hand_network_init(&hand, "hex8");
-  check_ok(
-      hand_write(&hand, cdem_springs_format_find("mtx"), in_scratch("g.mtx"), 28, 1, &fault));
+  check_ok(hand_write(&hand, cdem_springs_format_find("mtx"), in_scratch("g.mtx"), 28, 1, &fault));
   for (int64_t p = 0; p < hand.model.pairs; p++) {
     double s[9];
     int i = hand.pair[p].node[0] * 3, j = hand.pair[p].node[1] * 3;
@@ -183,26 +181,23 @@ static void tags_beyond_calculix_are_refused(void **state) {
  * than the 20 columns CalculiX reads. */
 static void read_deck(const network *n, const char *path, double *k) {
   char *text = read_whole(path, NULL), *rest = text;
-  int dofs = n->model.dofs, node[64][2], springs = 0;
+  int dofs = n->model.dofs, component[2] = {0, 0};
+  double stiffness = NAN;
   memset(k, 0, sizeof(double) * MOST * MOST);
   for (char *line; (line = strsep(&rest, "\n")) != NULL;) {
     assert_null(strstr(line, "SPRING1"));
-    if (strncmp(line, "*ELEMENT", 8) == 0)
-      for (springs = 0; *rest != '*'; springs++) {
-        assert_true(springs < 64);
-        assert_int_equal(
-            sscanf(strsep(&rest, "\n"), "%*d,%d,%d", &node[springs][0], &node[springs][1]), 2);
-      }
-    if (strncmp(line, "*SPRING", 7) != 0)
+    if (strncmp(line, "*SPRING", 7) == 0) {
+      assert_int_equal(sscanf(strsep(&rest, "\n"), "%d,%d", &component[0], &component[1]), 2);
+      char *number = strsep(&rest, "\n");
+      assert_true(strlen(number) <= 20);
+      stiffness = strtod(number, NULL);
+    }
+    if (strncmp(line, "*ELEMENT", 8) != 0)
       continue;
-    int component[2];
-    assert_int_equal(sscanf(strsep(&rest, "\n"), "%d,%d", &component[0], &component[1]), 2);
-    char *number = strsep(&rest, "\n");
-    assert_true(strlen(number) <= 20);
-    double stiffness = strtod(number, NULL);
-    for (int s = 0; s < springs; s++) {
-      int a = (node[s][0] - 1) * dofs + component[0] - 1;
-      int b = (node[s][1] - 1) * dofs + component[1] - 1;
+    while (*rest != '*' && *rest != '\0') {
+      int node[2];
+      assert_int_equal(sscanf(strsep(&rest, "\n"), "%*d,%d,%d", &node[0], &node[1]), 2);
+      int a = (node[0] - 1) * dofs + component[0] - 1, b = (node[1] - 1) * dofs + component[1] - 1;
       k[a * n->rows + a] += stiffness;
       k[b * n->rows + b] += stiffness;
       k[a * n->rows + b] -= stiffness;

@@ -4,10 +4,13 @@
 
 #include <sys/mount.h>
 
+enum { FEEDS = 300 }; /* 8400 pairs: more than a megabyte in each format that grows */
+
 static hand_network hand;
 
 static int setup(void **state) {
   hand_network_init(&hand, "hex8");
+  hand_make_symmetric(&hand);
   return scratch_make(state);
 }
 
@@ -21,18 +24,6 @@ static const char *path_of(const cdem_springs_format *format) {
   char name[64];
   snprintf(name, sizeof name, "springs.%s", format->name);
   return in_scratch(name);
-}
-
-/* The rows of the hand-made network are arbitrary; decks need a symmetric matrix, so all couplings
- * and skew parts go for that format. */
-static void make_symmetric(hand_network *network) {
-  for (int64_t i = 0; i < network->model.pairs; i++)
-    for (int r = 0; r < network->pair[i].set.rows; r++) {
-      cdem_spring_row *row = &network->pair[i].set.row[r];
-      row->coupling = 0.0;
-      row->couples_to = 0;
-      memcpy(row->dual, row->dir, sizeof row->dual);
-    }
 }
 
 static void formats_are_found_by_name_and_ending(void **state) {
@@ -55,7 +46,6 @@ static void formats_are_found_by_name_and_ending(void **state) {
 static void chunks_do_not_change_the_file(void **state) {
   (void)state;
   cdem_fault fault = {0};
-  make_symmetric(&hand);
   for (int f = 0; cdem_springs_format_at(f) != NULL; f++) {
     const cdem_springs_format *format = cdem_springs_format_at(f);
     if (strcmp(format->name, "h5") == 0)
@@ -64,34 +54,6 @@ static void chunks_do_not_change_the_file(void **state) {
     char *text[2];
     for (int i = 0; i < 2; i++) {
       check_ok(hand_write(&hand, format, path_of(format), i == 0 ? 28 : 5, 2, &fault));
-      text[i] = read_whole(path_of(format), &bytes[i]);
-      unlink(path_of(format));
-    }
-    assert_int_equal(bytes[0], bytes[1]);
-    assert_memory_equal(text[0], text[1], bytes[0]);
-    free(text[0]);
-    free(text[1]);
-  }
-}
-
-static void a_comma_locale_changes_nothing(void **state) {
-  (void)state;
-  cdem_fault fault = {0};
-  for (int f = 0; cdem_springs_format_at(f) != NULL; f++) {
-    const cdem_springs_format *format = cdem_springs_format_at(f);
-    size_t bytes[2] = {0, 0};
-    char *text[2];
-    if (strcmp(format->name, "h5") == 0)
-      continue;
-    for (int i = 0; i < 2; i++) {
-      if (i == 1 && !use_comma_locale()) {
-        print_message("no locale with a decimal comma: skipped\n");
-        free(text[0]);
-        skip();
-      }
-      cdem_status status = hand_write(&hand, format, path_of(format), 28, 1, &fault);
-      setlocale(LC_ALL, "C");
-      assert_int_equal(status, CDEM_OK);
       text[i] = read_whole(path_of(format), &bytes[i]);
       unlink(path_of(format));
     }
@@ -124,7 +86,7 @@ static void full_devices_are_told(void **state) {
   for (int f = 0; cdem_springs_format_at(f) != NULL; f++) {
     const cdem_springs_format *format = cdem_springs_format_at(f);
     bool seeks = strcmp(format->name, "h5") == 0;
-    check_fails(hand_write(&hand, format, "/dev/full", 28, 400, &fault), CDEM_FILE,
+    check_fails(hand_write(&hand, format, "/dev/full", 28, FEEDS, &fault), CDEM_FILE,
                 seeks ? "HDF5 needs a regular file" : "No space left on device");
     check_fails(hand_write(&hand, format, in_scratch("no/springs"), 28, 1, &fault), CDEM_FILE,
                 "No such file or directory");
@@ -140,7 +102,7 @@ typedef struct {
 static int write_beyond_the_limit(const void *argument) {
   const limited *what = argument;
   cdem_fault fault = {0};
-  cdem_status status = hand_write(&hand, what->format, what->path, 28, 2000, &fault);
+  cdem_status status = hand_write(&hand, what->format, what->path, 28, FEEDS, &fault);
   if (status != CDEM_FILE || access(what->path, F_OK) == 0)
     return 1;
   return strstr(fault.message, "File too large; free some space") != NULL ? 0 : 2;
@@ -153,10 +115,10 @@ static bool grows(const cdem_springs_format *format) {
 
 static void files_that_cannot_grow(void **state) {
   (void)state;
-  const rlim_t limits[] = {100, 3000, 20000, 1 << 20, 5 << 20};
+  const rlim_t limits[] = {100, 3000, 20000, 1 << 20};
   int before = count_files(scratch);
   for (int f = 0; cdem_springs_format_at(f) != NULL; f++)
-    for (int l = 0; l < 5; l++) {
+    for (int l = 0; l < 4; l++) {
       const limited what = {cdem_springs_format_at(f), path_of(cdem_springs_format_at(f))};
       if (l > 0 && !grows(what.format))
         continue;
@@ -181,8 +143,7 @@ static void a_full_file_system(void **state) {
     const cdem_springs_format *format = cdem_springs_format_at(f);
     if (!grows(format))
       continue;
-    cdem_status status =
-        hand_write(&hand, format, in_scratch("small/springs"), 28, 2000, &fault);
+    cdem_status status = hand_write(&hand, format, in_scratch("small/springs"), 28, FEEDS, &fault);
     if (status != CDEM_FILE || strstr(fault.message, "No space left on device") == NULL)
       print_error("%s: %s\n", format->name, fault.message);
     int left = count_files(in_scratch("small"));
@@ -222,7 +183,6 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(formats_are_found_by_name_and_ending),
       cmocka_unit_test(chunks_do_not_change_the_file),
-      cmocka_unit_test(a_comma_locale_changes_nothing),
       cmocka_unit_test(files_left_behind_are_none),
       cmocka_unit_test(full_devices_are_told),
       cmocka_unit_test(files_that_cannot_grow),

@@ -3,16 +3,15 @@
 #ifndef CDEM_TESTS_IO_SUPPORT_H
 #define CDEM_TESTS_IO_SUPPORT_H
 
-#include "support/test.h"
-
 #include "io/io.h"
+#include "support/test.h"
 
 #include <dirent.h>
 #include <locale.h>
+#include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
-#include <signal.h>
 #include <unistd.h>
 
 static char scratch[64];
@@ -84,8 +83,8 @@ static inline bool use_comma_locale(void) {
   for (int i = 0; i < 3 && !found; i++)
     found = setlocale(LC_ALL, names[i]) != NULL;
   char command[160];
-  snprintf(command, sizeof command,
-           "localedef -i de_DE -f UTF-8 '%s/de_DE.UTF-8' >/dev/null 2>&1", scratch);
+  snprintf(command, sizeof command, "localedef -i de_DE -f UTF-8 '%s/de_DE.UTF-8' >/dev/null 2>&1",
+           scratch);
   if (!found && system(command) >= 0) {
     setenv("LOCPATH", scratch, 1);
     found = setlocale(LC_ALL, "de_DE.UTF-8") != NULL;
@@ -181,8 +180,7 @@ static inline void hand_network_init(hand_network *hand, const char *element) {
     node[n] = n;
     tag[n] = 1000 - 7 * n;
     for (int c = 0; c < 3; c++)
-      xyz[n][c] =
-          c < cdem_element_dimension(info) ? info->reference[n][c] + 0.01 * n : 0.0;
+      xyz[n][c] = c < cdem_element_dimension(info) ? info->reference[n][c] + 0.01 * n : 0.0;
   }
   const int64_t cell_tag = 4711;
   check_ok(cdem_mesh_add_nodes(&hand->mesh, nodes, xyz[0], tag, &fault));
@@ -266,6 +264,18 @@ static inline void rows_to_block(const cdem_spring_row *row, int rows, int size,
         s[a * size + b] += row[r].dir[a] * (row[r].stiffness * row[r].dual[b] +
                                             (other != NULL ? row[r].coupling * other[b] : 0.0));
   }
+}
+
+/* The rows of the hand-made network are arbitrary; decks need a symmetric matrix, so all couplings
+ * and skew parts go for that format. */
+static inline void hand_make_symmetric(hand_network *network) {
+  for (int64_t i = 0; i < network->model.pairs; i++)
+    for (int r = 0; r < network->pair[i].set.rows; r++) {
+      cdem_spring_row *row = &network->pair[i].set.row[r];
+      row->coupling = 0.0;
+      row->couples_to = 0;
+      memcpy(row->dual, row->dir, sizeof row->dual);
+    }
 }
 
 #endif

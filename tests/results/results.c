@@ -1,7 +1,8 @@
-/* Room results: tables keep what they are given, absent stays absent, checks pass by their bound. */
-#include "support/test.h"
-
+/* Room results: tables keep what they are given, absent stays absent, checks pass by their bound.
+ */
 #include "results/results.h"
+
+#include "support/test.h"
 
 enum { NAME, COUNT, VALUE };
 

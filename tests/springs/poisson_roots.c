@@ -211,7 +211,7 @@ static void ends_are_excluded(void **state) {
 /* ---- brute force: the sign of the discriminant straight from the blocks ---- */
 
 static double brute_discriminant(const exact_pair *pair, double nu) {
-  double s[9], m[9], square[9];
+  double s[9] = {0}, m[9], square[9];
   int n = pair->size;
   exact_block(pair, nu, s);
   double norm = cdem_frobenius(s, n * n);

@@ -1,0 +1,119 @@
+/* Room verify: every check of the table passes, tables are sound, and a check that cannot be
+ * carried out, a wrong name, or a wish to stop is told as it should be. */
+#include "verify/verify.h"
+
+#include "support/test.h"
+
+static void print_skipped(void *context, const char *group, const char *name, const char *reason) {
+  (*(int *)context)++;
+  print_error("%s, %s could not run: %s\n", group, name, reason);
+}
+
+static void every_check_passes(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  cdem_check_list list = {0};
+  int skipped = 0, failed = 0;
+  const cdem_verify_options options = {.context = &skipped, .skipped = print_skipped};
+  check_ok(cdem_verify_run(NULL, 0, &options, &list, &fault));
+  for (int64_t i = 0; i < list.checks; i++) {
+    const cdem_check *check = &list.check[i];
+    if (!cdem_check_passes(check)) {
+      print_error("%s, %s: %.17g, expected %.17g within %g (%s)\n", check->group, check->name,
+                  check->value, check->reference, check->tolerance, check->source);
+      failed++;
+    }
+  }
+  assert_int_equal(failed, 0);
+  assert_int_equal(skipped, 0);
+  assert_true(list.checks >= 30);
+  cdem_check_list_release(&list);
+}
+
+static void tables_are_sound(void **state) {
+  (void)state;
+  for (int g = 0; cdem_verify_group_at(g) != NULL; g++) {
+    const cdem_verify_group *group = cdem_verify_group_at(g);
+    assert_ptr_equal(cdem_verify_group_find(group->name), group);
+    for (int i = 0; i < group->checks; i++) {
+      const cdem_verification *check = &group->check[i];
+      assert_non_null(check->measure);
+      assert_true(check->source != NULL && check->source[0] != '\0');
+      assert_true(check->tolerance >= 0.0);
+      for (int j = 0; j < i; j++)
+        assert_string_not_equal(check->name, group->check[j].name);
+    }
+  }
+  assert_null(cdem_verify_group_at(-1));
+  assert_null(cdem_verify_group_find("no such group"));
+}
+
+static void unknown_groups_are_named(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  cdem_check_list list = {0};
+  const cdem_verify_options options = {0};
+  const char *const typo[] = {"springs", "sprngs"}, *const strange[] = {"zzz"};
+  check_fails(cdem_verify_run(typo, 2, &options, &list, &fault), CDEM_USAGE,
+              "there is no group 'sprngs'; did you mean 'springs'?");
+  check_fails(cdem_verify_run(strange, 1, &options, &list, &fault), CDEM_USAGE,
+              "there is no group 'zzz'; groups are springs");
+  assert_int_equal(list.checks, 0);
+}
+
+static cdem_status measure(int parameter, double *value, cdem_fault *fault) {
+  CDEM_REQUIRE(parameter != 1, fault, CDEM_NUMERIC, "no value for %d", parameter);
+  CDEM_REQUIRE(parameter != 2, fault, CDEM_MEMORY, "out of memory");
+  *value = parameter;
+  return CDEM_OK;
+}
+
+static void remember_reason(void *context, const char *group, const char *name,
+                            const char *reason) {
+  snprintf(context, 128, "%s/%s: %s", group, name, reason);
+}
+
+static bool stop(void *context, const char *what, int64_t done, int64_t total) {
+  (void)context, (void)what, (void)total;
+  return done < 1;
+}
+
+static void checks_that_cannot_run_are_told(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  cdem_check_list list = {0};
+  char reason[128] = "";
+  int64_t done = 0;
+  const cdem_verification table[] = {
+      {"wrong", "here", 0, 0.5, measure, 7, false},
+      {"broken", "here", 0, 0.5, measure, 1, false},
+      {"long", "here", 9, 0.5, measure, 9, true},
+      {"memory", "here", 0, 0.5, measure, 2, true},
+  };
+  cdem_verify_group group = {"test", "for this test", 4, table};
+  cdem_verify_options options = {.context = reason, .skipped = remember_reason};
+  check_ok(cdem_verify_run_group(&group, &options, &done, 2, &list, &fault));
+  assert_int_equal(list.checks, 1); /* measured and wrong; the broken one is absent */
+  assert_false(cdem_check_passes(&list.check[0]));
+  assert_string_equal(reason, "test/broken: no value for 1");
+  options.slow = true;
+  check_fails(cdem_verify_run_group(&group, &options, &done, 4, &list, &fault), CDEM_MEMORY,
+              "memory: out of memory");
+  assert_int_equal(list.checks, 3);
+  const cdem_progress progress = {NULL, stop};
+  options.progress = &progress;
+  done = 0;
+  check_fails(cdem_verify_run_group(&group, &options, &done, 4, &list, &fault), CDEM_INTERRUPTED,
+              "verifying");
+  cdem_check_list_release(&list);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(every_check_passes),
+      cmocka_unit_test(tables_are_sound),
+      cmocka_unit_test(unknown_groups_are_named),
+      cmocka_unit_test(checks_that_cannot_run_are_told),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
