@@ -232,8 +232,11 @@ static void check_options(settings *s) {
     command_usage("--cosserat-ratio, --characteristic-length and --couple-factor are for "
                   "*-cosserat elements; %s has no rotations",
                   element->name);
-  if (s->output != NULL && strcmp(s->output, "-") != 0 && !has_ending(s->output, ".csv") &&
-      !has_ending(s->output, ".json"))
+  const char *name = s->output != NULL ? strrchr(s->output, '/') : NULL;
+  name = name != NULL ? name + 1 : s->output;
+  /* Without an ending (a device, a pipe) the table is CSV. */
+  if (name != NULL && strchr(name, '.') != NULL && !has_ending(name, ".csv") &&
+      !has_ending(name, ".json"))
     command_usage("the ending of '%s' names no table; .csv or .json is wanted", s->output);
   if ((s->roots || s->compare != NULL) && (s->has_from || s->has_to || s->has_step))
     command_say("--from, --to and --step are for tables and figures; they are not used here");
@@ -292,9 +295,10 @@ static cdem_status make_specimen(const settings *s, cdem_specimen *specimen, cde
     CDEM_TRY(poisson_read_shape(s->shape, options.element, &warnings, xyz, fault));
     options.xyz = (const double(*)[3])xyz;
   }
-  if (cdem_specimen_init(&options, specimen, fault) != CDEM_OK)
-    return cdem_fault_prefix(fault, "%s", s->shape != NULL ? s->shape : options.element->name);
-  return CDEM_OK;
+  cdem_status status = cdem_specimen_init(&options, specimen, fault);
+  if (status != CDEM_OK)
+    cdem_fault_prefix(fault, "%s", s->shape != NULL ? s->shape : options.element->name);
+  return status;
 }
 
 static cdem_status tabulate(const settings *s, const cdem_specimen *specimen,

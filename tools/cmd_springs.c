@@ -389,8 +389,11 @@ static cdem_status load(const settings *s, things *t, cdem_fault *fault) {
   const cdem_warnings warnings = command_warnings();
   command_say("reading %s", s->mesh);
   CDEM_TRY(cdem_read_mesh(s->mesh, &t->mesh, &warnings, fault));
-  if (cdem_model_init(&options, &t->model, fault) != CDEM_OK)
-    return cdem_fault_prefix(fault, "mesh '%s'", s->mesh);
+  cdem_status status = cdem_model_init(&options, &t->model, fault);
+  if (status != CDEM_OK) {
+    cdem_fault_prefix(fault, "mesh '%s'", s->mesh);
+    return status;
+  }
   if (t->model.dimension == 2 && !(s->plane && s->thickness))
     command_say("plane %s, thickness %g m",
                 s->section.plane == CDEM_PLANE_STRAIN ? "strain" : "stress", s->section.thickness);

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { POINTS = 481, MOST_CURVES = 6 + CDEM_POISSON_ROOTS, MOST_PANELS = 9, SPRINGS = 4 };
+enum { POINTS = 481, MOST_CURVES = 7 + CDEM_POISSON_ROOTS, MOST_PANELS = 12, SPRINGS = 4 };
 
 /* Numbers of one class over nu; NaN where there is none. */
 typedef struct {
@@ -20,7 +20,9 @@ typedef struct {
   double k[3][POINTS];
   double complex[3][POINTS]; /* single value, real and imaginary part of the pair */
   double dir[SPRINGS][3][POINTS];
-  double guide_x[CDEM_POISSON_ROOTS][2], guide_y[2];
+  double complex_dir[3][3][POINTS]; /* of the single value, Re v and Im v */
+  double guide_x[CDEM_POISSON_ROOTS][2], guide_y[CDEM_POISSON_ROOTS][2];
+  double axis_x[2], axis_y[2]; /* the line of zero; it also sets the range of the axis */
   int guides;
 } samples;
 
@@ -38,20 +40,20 @@ static bool is_cosserat(const samples *data) {
   return data->pair->specimen->options.element->formulation == CDEM_PLANE_COSSERAT;
 }
 
-/* The source's range: where the set is diagonal around 1/4, between 0 and a little below 1/2, where
- * every stiffness grows without bound. */
+/* The source's range: where the set is diagonal around 1/4, from 0 to where stiffnesses begin to
+ * grow without bound. The ends step aside from changes of form, where directions have no limit. */
 static void choose_range(const cdem_poisson_study *study, const poisson_range *range, double *from,
                          double *to) {
   *from = range != NULL ? range->from : 0.0;
-  *to = range != NULL ? range->to : 0.48;
+  *to = range != NULL ? range->to : 0.45;
   for (int i = 0; i < study->roots.count && range == NULL; i++) {
     const cdem_poisson_root *root = &study->roots.root[i];
     if (root->from == root->to)
       continue;
     if (root->nu < 0.25)
-      *from = fmax(*from, root->nu);
+      *from = fmax(*from, root->nu + 1e-5);
     else
-      *to = fmin(*to, root->nu);
+      *to = root->nu - 1e-5; /* bounded stiffnesses: up to the change itself */
   }
 }
 
@@ -65,15 +67,21 @@ static void note_guides(samples *data, double from, double to) {
 }
 
 static void keep_row(samples *data, int i, const cdem_poisson_row *row) {
-  bool real = row->form == CDEM_FORM_DIAGONAL;
+  bool real = row->form == CDEM_FORM_DIAGONAL, complex_pair = row->form == CDEM_FORM_COMPLEX;
   int pair = row->size - 2;
   for (int k = 0; k < 3; k++) {
     data->k[k][i] = real ? row->k[k] : NAN;
     data->complex[k][i] = NAN;
     for (int d = 0; d < 3; d++)
-      data->dir[k][d][i] = real && k < row->size && d < row->size ? row->dir[k][d] : NAN;
+      data->dir[k][d][i] = data->complex_dir[k][d][i] = NAN;
   }
-  if (row->form == CDEM_FORM_COMPLEX) {
+  for (int k = 0; k < row->size; k++)
+    for (int d = 0; d < row->size; d++)
+      if (real)
+        data->dir[k][d][i] = row->dir[k][d];
+      else if (complex_pair)
+        data->complex_dir[k + 1 - pair][d][i] = row->dir[k][d];
+  if (complex_pair) {
     data->complex[0][i] = pair == 1 ? row->k[0] : NAN;
     data->complex[1][i] = row->k[pair];
     data->complex[2][i] = row->coupling;
@@ -96,6 +104,36 @@ static cdem_status keep_frame(samples *data, int i, cdem_fault *fault) {
   return CDEM_OK;
 }
 
+static bool is_empty(const double *y) {
+  for (int i = 0; i < POINTS; i++)
+    if (!isnan(y[i]))
+      return false;
+  return true;
+}
+
+/* A direction is a line: each curve family is turned to the side on which its largest component is
+ * positive, unless a complex interval, whose pair turns together, continues it. */
+static void turn_directions(samples *data) {
+  if (!is_empty(data->complex[1]))
+    return;
+  for (int k = 0; k < SPRINGS; k++) {
+    double sum[3] = {0}, size[3] = {0};
+    int largest = 2;
+    for (int d = 2; d >= 0; d--) {
+      for (int i = 0; i < POINTS; i++)
+        if (!isnan(data->dir[k][d][i])) {
+          sum[d] += data->dir[k][d][i];
+          size[d] += fabs(data->dir[k][d][i]);
+        }
+      if (size[d] > size[largest] * (1.0 + 1e-9))
+        largest = d;
+    }
+    for (int d = 0; d < 3 && sum[largest] < 0.0; d++)
+      for (int i = 0; i < POINTS; i++)
+        data->dir[k][d][i] = -data->dir[k][d][i];
+  }
+}
+
 static cdem_status sample(cdem_specimen_pair *pair, const poisson_range *range, samples *data,
                           cdem_fault *fault) {
   cdem_poisson_family family = cdem_specimen_family(pair);
@@ -105,25 +143,20 @@ static cdem_status sample(cdem_specimen_pair *pair, const poisson_range *range, 
   CDEM_TRY(cdem_poisson_study_init(&family, &data->study, fault));
   choose_range(&data->study, range, &from, &to);
   note_guides(data, from, to);
+  data->axis_x[0] = range != NULL ? from : 0.0;
+  data->axis_x[1] = range != NULL ? to : 0.5;
   for (int i = 0; i < POINTS; i++) {
-    /* Points stand in the middle of their steps: none falls on a change of form. */
-    data->nu[i] = from + (to - from) * (i + 0.5) / POINTS;
+    data->nu[i] = from + (to - from) * i / (POINTS - 1);
     CDEM_TRY(cdem_poisson_follow(&data->study, data->nu[i], &row, fault));
     keep_row(data, i, &row);
   }
   for (int i = 0; i < POINTS && data->frame; i++)
     CDEM_TRY(keep_frame(data, i, fault));
+  turn_directions(data);
   return CDEM_OK;
 }
 
 /* ---- panels ---- */
-
-static bool is_empty(const double *y) {
-  for (int i = 0; i < POINTS; i++)
-    if (!isnan(y[i]))
-      return false;
-  return true;
-}
 
 static void add_curve(drawing *d, int panel, const char *title, const double *y, int style) {
   if (is_empty(y))
@@ -132,11 +165,13 @@ static void add_curve(drawing *d, int panel, const char *title, const double *y,
   *curve = (cdem_curve){title, d->data.nu, y, POINTS, style};
 }
 
-/* Vertical lines at the critical ratios, behind the curves that come after. */
+/* The line of zero and vertical lines at the critical ratios, behind the curves that come after. */
 static void add_guides(drawing *d, int panel) {
+  d->curve[panel][d->panel[panel].curves++] =
+      (cdem_curve){NULL, d->data.axis_x, d->data.axis_y, 2, -1};
   for (int g = 0; g < d->data.guides; g++)
     d->curve[panel][d->panel[panel].curves++] =
-        (cdem_curve){NULL, d->data.guide_x[g], d->data.guide_y, 2, -1};
+        (cdem_curve){NULL, d->data.guide_x[g], d->data.guide_y[g], 2, -1};
 }
 
 static void begin_panel(drawing *d, int panel, const char *y_label, double low, double high) {
@@ -166,6 +201,23 @@ static const char *stiffness_label(const cdem_specimen *specimen) {
                                                : "spring stiffness / (E t)";
 }
 
+/* From the lowest to the highest value there, and a little more: clear of the legend. */
+static void place_guides(samples *data, double margin) {
+  for (int g = 0; g < data->guides; g++) {
+    double low = INFINITY, high = -INFINITY;
+    int i = 0;
+    while (i + 2 < POINTS && data->nu[i + 1] < data->guide_x[g][0])
+      i++;
+    for (int k = 0; k < 3; k++)
+      for (int side = i; side < i + 2; side++) {
+        low = fmin(low, fmin(data->k[k][side], data->complex[k][side]));
+        high = fmax(high, fmax(data->k[k][side], data->complex[k][side]));
+      }
+    data->guide_y[g][0] = low - margin;
+    data->guide_y[g][1] = high + margin;
+  }
+}
+
 static cdem_status draw_stiffness(drawing *d, const char *folder, cdem_fault *fault) {
   static const char *const real_title[] = {"k_1", "k_2", "k_3"};
   static const char *const complex_title[] = {"single value", "pair, real part",
@@ -178,13 +230,11 @@ static cdem_status draw_stiffness(drawing *d, const char *folder, cdem_fault *fa
     widen(data->k[k], &low, &high);
     widen(data->complex[k], &low, &high);
   }
-  double margin = 0.08 * (high - low);
-  data->guide_y[0] = low - margin;
-  data->guide_y[1] = high + margin;
+  place_guides(data, 0.08 * (high - low));
   poisson_pair_name(data->pair, pair);
   snprintf(d->title[0], sizeof d->title[0], "%s springs, %s, pair %s",
            class_title[data->pair->class_], specimen->options.element->name, pair);
-  begin_panel(d, 0, stiffness_label(specimen), low - margin, high + margin);
+  begin_panel(d, 0, stiffness_label(specimen), 0.0, 0.0);
   add_guides(d, 0);
   if (data->frame) {
     add_curve(d, 0, "k_1, along the diagonal", data->k[0], 0);
@@ -199,28 +249,42 @@ static cdem_status draw_stiffness(drawing *d, const char *folder, cdem_fault *fa
   return cdem_write_figure(folder, name, &figure, fault);
 }
 
-/* One panel a spring and component; the four springs of a frame share a panel a component. */
-static cdem_status draw_directions(drawing *d, const char *folder, cdem_fault *fault) {
-  static const char *const spring_title[] = {"spring 1", "spring 2", "spring 3", "spring 4"};
+/* Panel of one spring (row) and component; with complex sets in the range, both forms with their
+ * legend, for which the axis leaves room. */
+static void draw_component(drawing *d, int panel, int spring, int axis) {
+  static const char *const complex_title[] = {"complex: single value", "complex: Re v",
+                                              "complex: Im v"};
+  static const char *const real_title[] = {"k_1", "k_2", "k_3"};
   samples *data = &d->data;
-  int size = data->study.family.size, rows = data->frame ? 1 : size;
+  int size = data->study.family.size, part = spring < 3 ? spring + 3 - size : 0;
+  bool both = !data->frame && !is_empty(data->complex[1]);
+  const char *letter = axis == 2 && is_cosserat(data) ? "ℓω" : component[axis];
+  if (data->frame)
+    snprintf(d->title[panel], sizeof d->title[panel], "spring %d (%s), %s component", spring + 1,
+             spring == 0 ? "k_1" : "h", letter);
+  else
+    snprintf(d->title[panel], sizeof d->title[panel], "spring %d, %s component", spring + 1,
+             letter);
+  begin_panel(d, panel, axis == 0 ? "component of unit vector" : NULL, -1.1, both ? 1.9 : 1.1);
+  add_guides(d, panel);
+  add_curve(d, panel, both ? real_title[spring] : NULL, data->dir[spring][axis], spring);
+  if (both)
+    add_curve(d, panel, complex_title[part], data->complex_dir[part][axis], 3 + part);
+}
+
+/* Labels stand at the left and at the bottom only. */
+static cdem_status draw_directions(drawing *d, const char *folder, cdem_fault *fault) {
+  samples *data = &d->data;
+  int size = data->study.family.size, rows = data->frame ? SPRINGS : size;
   char name[32];
-  data->guide_y[0] = -1.1;
-  data->guide_y[1] = 1.1;
+  for (int g = 0; g < data->guides; g++) {
+    data->guide_y[g][0] = -1.1;
+    data->guide_y[g][1] = 1.1;
+  }
   for (int p = 0; p < rows * size; p++) {
-    int spring = p / size, axis = p % size;
-    const char *letter = axis == 2 && is_cosserat(data) ? "ℓω" : component[axis];
-    if (data->frame)
-      snprintf(d->title[p], sizeof d->title[p], "%s component", letter);
-    else
-      snprintf(d->title[p], sizeof d->title[p], "direction of k_%d, %s component", spring + 1,
-               letter);
-    begin_panel(d, p, "component of the unit vector", -1.1, 1.1);
-    add_guides(d, p);
-    for (int k = 0; k < SPRINGS && data->frame; k++)
-      add_curve(d, p, spring_title[k], data->dir[k][axis], k);
-    if (!data->frame)
-      add_curve(d, p, NULL, data->dir[spring][axis], spring);
+    draw_component(d, p, p / size, p % size);
+    if (p / size + 1 < rows)
+      d->panel[p].x_label = NULL;
   }
   const cdem_figure figure = {.columns = size, .panels = rows * size, .panel = d->panel};
   snprintf(name, sizeof name, "%s-directions", cdem_class_name(data->pair->class_));

@@ -35,9 +35,9 @@ cdem_status cdem_fail(cdem_fault *fault, cdem_status status, const char *format,
   return status;
 }
 
-cdem_status cdem_fault_prefix(cdem_fault *fault, const char *format, ...) {
-  if (fault == NULL)
-    return CDEM_OK;
+void cdem_fault_prefix(cdem_fault *fault, const char *format, ...) {
+  if (fault == NULL || fault->status == CDEM_OK)
+    return;
   char whole[2 * CDEM_FAULT_LENGTH];
   va_list arguments;
   va_start(arguments, format);
@@ -47,5 +47,4 @@ cdem_status cdem_fault_prefix(cdem_fault *fault, const char *format, ...) {
   snprintf(whole + used, sizeof whole - used, ": %s", fault->message);
   whole[CDEM_FAULT_LENGTH - 1] = '\0';
   memcpy(fault->message, whole, CDEM_FAULT_LENGTH);
-  return fault->status;
 }

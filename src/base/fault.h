@@ -36,9 +36,9 @@ int cdem_status_exit_code(cdem_status status);
 __attribute__((format(printf, 3, 4))) cdem_status cdem_fail(cdem_fault *fault, cdem_status status,
                                                             const char *format, ...);
 
-/* Puts "WHERE: " before a message already recorded; returns the recorded status. */
-__attribute__((format(printf, 2, 3))) cdem_status cdem_fault_prefix(cdem_fault *fault,
-                                                                    const char *format, ...);
+/* Puts "WHERE: " before a message already recorded. */
+__attribute__((format(printf, 2, 3))) void cdem_fault_prefix(cdem_fault *fault, const char *format,
+                                                             ...);
 
 /* Return with a message unless the condition holds. */
 #define CDEM_REQUIRE(condition, fault, status, ...)                                                \

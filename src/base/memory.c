@@ -2,6 +2,7 @@
 
 #include <inttypes.h>
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,9 +13,9 @@ void cdem_memory_fail_after(int64_t count) {
 }
 
 /* True when a test asked this allocation to fail. */
-static int must_fail(void) {
+static bool must_fail(void) {
   if (atomic_load_explicit(&allocations_left, memory_order_relaxed) < 0)
-    return 0;
+    return false;
   return atomic_fetch_sub(&allocations_left, 1) == 0;
 }
 
@@ -26,7 +27,10 @@ static cdem_status out_of_memory(int64_t count, size_t size, cdem_fault *fault) 
 
 void *cdem_allocate(int64_t count, size_t size, cdem_fault *fault) {
   void *block = NULL;
-  if (count >= 0 && !must_fail())
+  size_t bytes;
+  bool possible =
+      count >= 0 && !__builtin_mul_overflow((size_t)count, size, &bytes) && bytes <= PTRDIFF_MAX;
+  if (possible && !must_fail())
     block = calloc(count > 0 ? (size_t)count : 1, size);
   if (block == NULL)
     out_of_memory(count, size, fault);
@@ -45,7 +49,8 @@ cdem_status cdem_grow(void *array, int64_t *capacity, int64_t needed, size_t siz
   void *old, *block = NULL;
   memcpy(&old, array, sizeof old);
   size_t bytes;
-  if (!__builtin_mul_overflow((size_t)larger, size, &bytes) && !must_fail())
+  bool possible = !__builtin_mul_overflow((size_t)larger, size, &bytes) && bytes <= PTRDIFF_MAX;
+  if (possible && !must_fail())
     block = realloc(old, bytes);
   if (block == NULL)
     return out_of_memory(larger, size, fault);

@@ -316,10 +316,11 @@ cdem_status cdem_material_moduli(const cdem_material *material, cdem_moduli_kind
       status =
           cdem_fail(fault, CDEM_INPUT,
                     "moduli overflow: bring the material's values into a range a body can have");
-  if (status != CDEM_OK)
-    return material->name[0] == '\0' || fault == NULL
-               ? status
-               : cdem_fault_prefix(fault, "material '%s'", material->name);
+  if (status != CDEM_OK) {
+    if (material->name[0] != '\0')
+      cdem_fault_prefix(fault, "material '%s'", material->name);
+    return status;
+  }
   memcpy(d, result, sizeof(double) * (size_t)(count * count));
   *rows = count;
   return CDEM_OK;

@@ -258,10 +258,10 @@ static void put_plot(FILE *stream, const cdem_panel *panel, int first) {
 static void put_panel(FILE *stream, const cdem_figure *figure, int p, int first, double width,
                       double height) {
   const cdem_panel *panel = &figure->panel[p];
-  int columns = figure->columns > 0 ? figure->columns : 1;
+  int columns = figure->columns > 0 ? figure->columns : 1, row = p / columns;
   double left = (p % columns) * (MARGIN_LEFT + AXES_WIDTH + MARGIN_RIGHT) + MARGIN_LEFT;
   double top = height - (figure->title != NULL && figure->title[0] != '\0' ? FIGURE_TITLE : 0.0) -
-               (p / columns) * (MARGIN_TOP + AXES_HEIGHT + MARGIN_BOTTOM) - MARGIN_TOP;
+               row * (MARGIN_TOP + AXES_HEIGHT + MARGIN_BOTTOM) - MARGIN_TOP;
   const double edge[4] = {left / width, (left + AXES_WIDTH) / width, (top - AXES_HEIGHT) / height,
                           top / height};
   range x = x_range(panel), y = y_range(panel);

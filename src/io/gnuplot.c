@@ -180,12 +180,35 @@ static cdem_status draw_and_publish(const char *folder, const char *name, const 
   return status;
 }
 
+/* The folder and its parents, where they are missing. */
+static cdem_status make_folder(const char *folder, cdem_fault *fault) {
+  char *path = cdem_copy_text(folder, fault);
+  if (path == NULL)
+    return CDEM_MEMORY;
+  cdem_status status = CDEM_OK;
+  for (char *at = path; status == CDEM_OK && *at != '\0'; at++) {
+    at += strspn(at, "/");
+    at += strcspn(at, "/");
+    char keep = *at;
+    *at = '\0';
+    if (mkdir(path, 0777) != 0 && errno != EEXIST)
+      status = cdem_fail(fault, CDEM_FILE, "cannot make the folder '%s': %s; choose another one",
+                         path, strerror(errno));
+    *at = keep;
+    if (keep == '\0')
+      break;
+  }
+  free(path);
+  return status;
+}
+
 cdem_status cdem_write_figure(const char *folder, const char *name, const cdem_figure *figure,
                               cdem_fault *fault) {
   CDEM_REQUIRE(strpbrk(name, "/\n") == NULL && name[0] != '\0', fault, CDEM_USAGE,
                "'%s' cannot be the name of a figure; leave out folders and line breaks", name);
   char suffix[32];
   snprintf(suffix, sizeof suffix, ".part-%ld", (long)getpid());
+  CDEM_TRY(make_folder(folder, fault));
   CDEM_TRY(put_file(folder, name, "dat", figure, fault));
   CDEM_TRY(put_file(folder, name, "gp", figure, fault));
   return draw_and_publish(folder, name, suffix, fault);

@@ -271,7 +271,7 @@ void cdem_output_discard(cdem_output **output) {
     return;
   (*output)->dropped = true;
   close_output(*output);
-  if ((*output)->regular)
+  if ((*output)->regular && (*output)->path != NULL)
     unlink((*output)->path);
   free_output(output);
 }

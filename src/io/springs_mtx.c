@@ -64,13 +64,14 @@ bool cdem_matrix_is_symmetric(const cdem_sparse *sparse) {
 static void put_comments(const cdem_matrix_writer *matrix, FILE *stream) {
   const cdem_sparse *sparse = &matrix->sparse;
   const cdem_mesh *mesh = matrix->model->mesh;
-  static const char *const components[] = {"ux, uy", "ux, uy, uz", "ux, uy, rotation"};
-  int kind = cdem_model_is_cosserat(matrix->model) ? 2 : sparse->dofs - 2;
+  const char *components = sparse->dofs == 2 ? "ux, uy" : "ux, uy, uz";
+  if (cdem_model_is_cosserat(matrix->model))
+    components = "ux, uy, rotation";
   fprintf(stream, "%% stiffness matrix of the spring network of %s, by cdem " CDEM_VERSION "\n",
           mesh->source != NULL ? mesh->source : "a generated mesh");
   fprintf(stream, "%% f = K u; N/m (rotations: N and N m)\n");
   fprintf(stream, "%% row %d*(p - 1) + c is component c of the p-th node below, c = 1..%d for %s\n",
-          sparse->dofs, sparse->dofs, components[kind]);
+          sparse->dofs, sparse->dofs, components);
   fprintf(stream, "%% nodes %" PRId32 ", their tags in order:\n", sparse->nodes);
   for (int32_t p = 0; p < sparse->nodes; p++)
     fprintf(stream, "%s%" PRId64 "%s", p % 10 == 0 ? "% " : " ", mesh->node_tag[sparse->node[p]],

@@ -106,7 +106,7 @@ static char *put_digits(char *at, uint64_t digits, int exponent) {
   if (exponent >= 0 && exponent < 17) {
     whole = exponent + 1;
   } else if (exponent < 0 && exponent >= -4) {
-    memcpy(at, "0.000", 5);
+    cdem_put_text(at, "0.000");
     at += 1 - exponent;
     memcpy(at, d, (size_t)used);
     return at + used;

@@ -1,8 +1,8 @@
 /* Private to io: numbers as text, fast and in the C locale whatever the process's locale is.
  *
- * Each function writes at `at`, no terminating zero, and returns the place behind. A real number
- * takes at most CDEM_REAL_WIDTH bytes and is exactly what printf's %.17g gives in the C locale;
- * NaN and infinities become "nan", "inf", "-inf".
+ * Each function writes at `at` and returns the place behind; only cdem_put_text ends with a zero. A
+ * real number takes at most CDEM_REAL_WIDTH bytes and is exactly what printf's %.17g gives in the C
+ * locale; NaN and infinities become "nan", "inf", "-inf".
  */
 #ifndef CDEM_IO_TEXT_H
 #define CDEM_IO_TEXT_H
@@ -16,9 +16,7 @@ char *cdem_put_real(char *at, double value);
 char *cdem_put_integer(char *at, int64_t value);
 
 static inline char *cdem_put_text(char *at, const char *text) {
-  size_t length = strlen(text);
-  memcpy(at, text, length);
-  return at + length;
+  return stpcpy(at, text);
 }
 
 /* The number at the start of `text` in C notation, *end behind it (= text when there is none). */

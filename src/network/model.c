@@ -166,12 +166,8 @@ static cdem_status build_laws(const cdem_model_options *options, cdem_model *mod
     model->materials_of[i] = options->material[i];
     double length = cdem_material_length(&options->material[i]);
     longest = length > longest ? length : longest;
-    if (cdem_contraction_build(&options->material[i], model->formulation, &options->section,
-                               &model->contraction[i], fault) != CDEM_OK)
-      return options->material[i].name[0] != '\0'
-                 ? cdem_fault_prefix(fault, "material '%s'", options->material[i].name)
-             : fault != NULL ? fault->status
-                             : CDEM_INPUT;
+    CDEM_TRY(cdem_contraction_build(&options->material[i], model->formulation, &options->section,
+                                    &model->contraction[i], fault));
   }
   bool cosserat = model->formulation == CDEM_PLANE_COSSERAT;
   model->length = !cosserat ? 1.0 : options->length > 0.0 ? options->length : longest;

@@ -14,7 +14,7 @@
  *     of it D is a 2x2 block, solved without cancellation: a pair of nearly equal values that are
  *     not defective costs no accuracy.
  *
- * tests/springs/fast.c compares with the robust path. */
+ * tests/springs/reconstruct.h compares with the robust path. */
 #include "springs/kernels.h"
 #include "springs/parts.h"
 #include "springs/plane.h"
@@ -128,46 +128,46 @@ CDEM_ALWAYS_INLINE void take_block(const double *s, int lane, cdem_batch *batch,
 CDEM_MULTIVERSION void cdem_springs_kernel3_single(const double *restrict s, int batches,
                                                    cdem_batch *restrict batch) {
   for (; batches > 0; batches--, batch++, s += 9 * CDEM_SPRINGS_LANES)
-#pragma GCC ivdep
-    for (int lane = 0; lane < CDEM_SPRINGS_LANES; lane++) {
-      double d[9], m[9];
-      take_block(s, lane, batch, d);
-      m[0] = d[4] * d[8] - d[5] * d[7];
-      m[1] = d[2] * d[7] - d[1] * d[8];
-      m[2] = d[1] * d[5] - d[2] * d[4];
-      m[3] = d[5] * d[6] - d[3] * d[8];
-      m[4] = d[0] * d[8] - d[2] * d[6];
-      m[5] = d[2] * d[3] - d[0] * d[5];
-      m[6] = d[3] * d[7] - d[4] * d[6];
-      m[7] = d[1] * d[6] - d[0] * d[7];
-      m[8] = d[0] * d[4] - d[1] * d[3];
-      double j = (d[0] * d[0] + d[4] * d[4] + d[8] * d[8]) * (1.0 / 6.0) +
-                 (d[1] * d[3] + d[2] * d[6] + d[5] * d[7]) * (1.0 / 3.0);
-      double r = 0.5 * (d[0] * m[0] + d[1] * m[3] + d[2] * m[6]);
-      double x = copysign(positive_root(j, fabs(r)), r), square = x * x;
-      m[0] += x * d[0] + square, m[1] += x * d[1], m[2] += x * d[2];
-      m[3] += x * d[3], m[4] += x * d[4] + square, m[5] += x * d[5];
-      m[6] += x * d[6], m[7] += x * d[7], m[8] += x * d[8] + square;
-      /* m = right left^T up to a factor: the largest row is the left vector. */
-      double n0 = dot(m, m), n1 = dot(m + 3, m + 3), n2 = dot(m + 6, m + 6);
-      int second = n1 > n0;
-      double most = second ? n1 : n0;
-      int third = n2 > most;
-      double left[3] = {second ? m[3] : m[0], second ? m[4] : m[1], second ? m[5] : m[2]};
-      left[0] = third ? m[6] : left[0], left[1] = third ? m[7] : left[1];
-      left[2] = third ? m[8] : left[2];
-      double length = 1.0 / sqrt(third ? n2 : most), right[3], axis[3];
-      left[0] *= length, left[1] *= length, left[2] *= length;
-      multiply(m, left, right);
-      int symmetric = batch->symmetric[lane] > 0.0;
-      right[0] = symmetric ? left[0] : right[0];
-      right[1] = symmetric ? left[1] : right[1];
-      right[2] = symmetric ? left[2] : right[2];
-      save3(left, batch->left, lane);
-      save3(right, batch->right, lane);
-      cdem_springs_least_axis(left, axis);
-      save3(axis, batch->axis, lane);
-    }
+    CDEM_SPRINGS_LANE_LOOP
+  for (int lane = 0; lane < CDEM_SPRINGS_LANES; lane++) {
+    double d[9], m[9];
+    take_block(s, lane, batch, d);
+    m[0] = d[4] * d[8] - d[5] * d[7];
+    m[1] = d[2] * d[7] - d[1] * d[8];
+    m[2] = d[1] * d[5] - d[2] * d[4];
+    m[3] = d[5] * d[6] - d[3] * d[8];
+    m[4] = d[0] * d[8] - d[2] * d[6];
+    m[5] = d[2] * d[3] - d[0] * d[5];
+    m[6] = d[3] * d[7] - d[4] * d[6];
+    m[7] = d[1] * d[6] - d[0] * d[7];
+    m[8] = d[0] * d[4] - d[1] * d[3];
+    double j = (d[0] * d[0] + d[4] * d[4] + d[8] * d[8]) * (1.0 / 6.0) +
+               (d[1] * d[3] + d[2] * d[6] + d[5] * d[7]) * (1.0 / 3.0);
+    double r = 0.5 * (d[0] * m[0] + d[1] * m[3] + d[2] * m[6]);
+    double x = copysign(positive_root(j, fabs(r)), r), square = x * x;
+    m[0] += x * d[0] + square, m[1] += x * d[1], m[2] += x * d[2];
+    m[3] += x * d[3], m[4] += x * d[4] + square, m[5] += x * d[5];
+    m[6] += x * d[6], m[7] += x * d[7], m[8] += x * d[8] + square;
+    /* m = right left^T up to a factor: the largest row is the left vector. */
+    double n0 = dot(m, m), n1 = dot(m + 3, m + 3), n2 = dot(m + 6, m + 6);
+    int second = n1 > n0;
+    double most = second ? n1 : n0;
+    int third = n2 > most;
+    double left[3] = {second ? m[3] : m[0], second ? m[4] : m[1], second ? m[5] : m[2]};
+    left[0] = third ? m[6] : left[0], left[1] = third ? m[7] : left[1];
+    left[2] = third ? m[8] : left[2];
+    double length = 1.0 / sqrt(third ? n2 : most), right[3], axis[3];
+    left[0] *= length, left[1] *= length, left[2] *= length;
+    multiply(m, left, right);
+    int symmetric = batch->symmetric[lane] > 0.0;
+    right[0] = symmetric ? left[0] : right[0];
+    right[1] = symmetric ? left[1] : right[1];
+    right[2] = symmetric ? left[2] : right[2];
+    save3(left, batch->left, lane);
+    save3(right, batch->right, lane);
+    cdem_springs_least_axis(left, axis);
+    save3(axis, batch->axis, lane);
+  }
 }
 
 /* The deviator in the plane normal to the left vector: basis, images and 2x2 block c (row-major).
@@ -186,7 +186,7 @@ CDEM_ALWAYS_INLINE void plane_block(const double d[9], const double left[3], con
  * u, w) D is [[x, f], [g, C]] with small f and g; right += [u w] y, left += z [u w]^-1 with
  * (x - C) y = g, z (x - C) = f remove them to second order. */
 CDEM_MULTIVERSION void cdem_springs_kernel3_improve(cdem_batch *restrict batch) {
-#pragma GCC ivdep
+  CDEM_SPRINGS_LANE_LOOP
   for (int lane = 0; lane < CDEM_SPRINGS_LANES; lane++) {
     double d[9], left[3], right[3], axis[3], u[3], w[3], c[4], du[3], dw[3], dr[3];
     load9(batch->deviator, lane, d);
@@ -220,7 +220,7 @@ CDEM_MULTIVERSION void cdem_springs_kernel3_improve(cdem_batch *restrict batch) 
   }
 }
 
-/* Direction a u + b w with its canonical sign, or with a given one. */
+/* Direction a u + b w. */
 CDEM_ALWAYS_INLINE void combine(double a, double b, const double u[3], const double w[3],
                                 double v[3]) {
   v[0] = a * u[0] + b * w[0];
@@ -236,44 +236,44 @@ CDEM_ALWAYS_INLINE void turn(double factor, double v[3]) {
 
 CDEM_MULTIVERSION void cdem_springs_kernel3_directions(int batches, cdem_batch *restrict batch) {
   for (; batches > 0; batches--, batch++)
-#pragma GCC ivdep
-    for (int lane = 0; lane < CDEM_SPRINGS_LANES; lane++) {
-      double d[9], left[3], one[3], two[3], three[3], axis[3], u[3], w[3], c[4], du[3], dw[3];
-      load9(batch->deviator, lane, d);
-      load3(batch->left, lane, left);
-      load3(batch->axis, lane, axis);
-      load3(batch->right, lane, one);
-      int symmetric = batch->symmetric[lane] > 0.0;
-      plane_block(d, left, axis, u, w, c, du, dw);
-      multiply(d, one, du);
-      double single = dot(left, du) / dot(left, one), length = 1.0 / sqrt(dot(one, one));
-      cdem_plane_pair pair = cdem_solve_plane(c, symmetric, batch->norm2[lane]);
-      combine(pair.a[0], pair.a[1], u, w, two);
-      combine(pair.b[0], pair.b[1], u, w, three);
-      double sign2 = cdem_springs_sign(two), sign3 = cdem_springs_sign(three);
-      turn(length, one);
+    CDEM_SPRINGS_LANE_LOOP
+  for (int lane = 0; lane < CDEM_SPRINGS_LANES; lane++) {
+    double d[9], left[3], one[3], two[3], three[3], axis[3], u[3], w[3], c[4], du[3], dw[3];
+    load9(batch->deviator, lane, d);
+    load3(batch->left, lane, left);
+    load3(batch->axis, lane, axis);
+    load3(batch->right, lane, one);
+    int symmetric = batch->symmetric[lane] > 0.0;
+    plane_block(d, left, axis, u, w, c, du, dw);
+    multiply(d, one, du);
+    double single = dot(left, du) / dot(left, one), length = 1.0 / sqrt(dot(one, one));
+    cdem_plane_pair pair = cdem_solve_plane(c, symmetric, batch->norm2[lane]);
+    combine(pair.a[0], pair.a[1], u, w, two);
+    combine(pair.b[0], pair.b[1], u, w, three);
+    double sign2 = cdem_springs_sign(two), sign3 = cdem_springs_sign(three);
+    turn(length, one);
     turn(cdem_springs_sign(one), one);
-      turn(sign2, two);
-      turn(pair.conjugate ? sign2 : sign3, three);
-      double k2 = pair.mean + (pair.conjugate ? 0.0 : pair.split);
-      double k3 = pair.mean - (pair.conjugate ? 0.0 : pair.split);
-      /* Diagonal stiffnesses descend: the single one is first or last of them. */
-      int last = !pair.conjugate & (single < k2);
-      batch->k[0][lane] = last ? k2 : single;
-      batch->k[1][lane] = last ? k3 : k2;
-      batch->k[2][lane] = last ? single : k3;
-      batch->p[0][0][lane] = last ? two[0] : one[0];
-      batch->p[0][1][lane] = last ? two[1] : one[1];
-      batch->p[0][2][lane] = last ? two[2] : one[2];
-      batch->p[1][0][lane] = last ? three[0] : two[0];
-      batch->p[1][1][lane] = last ? three[1] : two[1];
-      batch->p[1][2][lane] = last ? three[2] : two[2];
-      batch->p[2][0][lane] = last ? one[0] : three[0];
-      batch->p[2][1][lane] = last ? one[1] : three[1];
-      batch->p[2][2][lane] = last ? one[2] : three[2];
-      batch->coupling[lane] = pair.conjugate ? pair.split : 0.0;
-      batch->conjugate[lane] = pair.conjugate ? 1.0 : 0.0;
-    }
+    turn(sign2, two);
+    turn(pair.conjugate ? sign2 : sign3, three);
+    double k2 = pair.mean + (pair.conjugate ? 0.0 : pair.split);
+    double k3 = pair.mean - (pair.conjugate ? 0.0 : pair.split);
+    /* Diagonal stiffnesses descend: the single one is first or last of them. */
+    int last = !pair.conjugate & (single < k2);
+    batch->k[0][lane] = last ? k2 : single;
+    batch->k[1][lane] = last ? k3 : k2;
+    batch->k[2][lane] = last ? single : k3;
+    batch->p[0][0][lane] = last ? two[0] : one[0];
+    batch->p[0][1][lane] = last ? two[1] : one[1];
+    batch->p[0][2][lane] = last ? two[2] : one[2];
+    batch->p[1][0][lane] = last ? three[0] : two[0];
+    batch->p[1][1][lane] = last ? three[1] : two[1];
+    batch->p[1][2][lane] = last ? three[2] : two[2];
+    batch->p[2][0][lane] = last ? one[0] : three[0];
+    batch->p[2][1][lane] = last ? one[1] : three[1];
+    batch->p[2][2][lane] = last ? one[2] : three[2];
+    batch->coupling[lane] = pair.conjugate ? pair.split : 0.0;
+    batch->conjugate[lane] = pair.conjugate ? 1.0 : 0.0;
+  }
 }
 
 /* 2-norm condition number of three unit columns with determinant det. The Gram matrix I + G has the
@@ -299,32 +299,32 @@ CDEM_ALWAYS_INLINE double condition(const double a[3], const double b[3], const 
 CDEM_MULTIVERSION void cdem_springs_kernel3_finish(const double *restrict s, int batches,
                                                    cdem_batch *restrict batch) {
   for (; batches > 0; batches--, batch++, s += 9 * CDEM_SPRINGS_LANES)
-#pragma GCC ivdep
-    for (int lane = 0; lane < CDEM_SPRINGS_LANES; lane++) {
-      double p0[3], p1[3], p2[3], q0[3], q1[3], q2[3], m[9];
-      load3(batch->p[0], lane, p0);
-      load3(batch->p[1], lane, p1);
-      load3(batch->p[2], lane, p2);
-      cdem_cross3(p1, p2, q0);
-      cdem_cross3(p2, p0, q1);
-      cdem_cross3(p0, p1, q2);
-      double det = dot(p0, q0), inverse = 1.0 / det;
-      int symmetric = batch->symmetric[lane] > 0.0;
-      q0[0] = symmetric ? p0[0] : q0[0] * inverse + 0.0;
-      q0[1] = symmetric ? p0[1] : q0[1] * inverse + 0.0;
-      q0[2] = symmetric ? p0[2] : q0[2] * inverse + 0.0;
-      q1[0] = symmetric ? p1[0] : q1[0] * inverse + 0.0;
-      q1[1] = symmetric ? p1[1] : q1[1] * inverse + 0.0;
-      q1[2] = symmetric ? p1[2] : q1[2] * inverse + 0.0;
-      q2[0] = symmetric ? p2[0] : q2[0] * inverse + 0.0;
-      q2[1] = symmetric ? p2[1] : q2[1] * inverse + 0.0;
-      q2[2] = symmetric ? p2[2] : q2[2] * inverse + 0.0;
-      double mean = batch->mean[lane], unscale = batch->unscale[lane],
-             coupling = batch->coupling[lane];
-      double k0 = batch->k[0][lane] + mean, k1 = batch->k[1][lane] + mean,
-             k2 = batch->k[2][lane] + mean;
-      double scale = batch->scale[lane], error = 0.0;
-      load_block(s, lane, m);
+    CDEM_SPRINGS_LANE_LOOP
+  for (int lane = 0; lane < CDEM_SPRINGS_LANES; lane++) {
+    double p0[3], p1[3], p2[3], q0[3], q1[3], q2[3], m[9];
+    load3(batch->p[0], lane, p0);
+    load3(batch->p[1], lane, p1);
+    load3(batch->p[2], lane, p2);
+    cdem_cross3(p1, p2, q0);
+    cdem_cross3(p2, p0, q1);
+    cdem_cross3(p0, p1, q2);
+    double det = dot(p0, q0), inverse = 1.0 / det;
+    int symmetric = batch->symmetric[lane] > 0.0;
+    q0[0] = symmetric ? p0[0] : q0[0] * inverse + 0.0;
+    q0[1] = symmetric ? p0[1] : q0[1] * inverse + 0.0;
+    q0[2] = symmetric ? p0[2] : q0[2] * inverse + 0.0;
+    q1[0] = symmetric ? p1[0] : q1[0] * inverse + 0.0;
+    q1[1] = symmetric ? p1[1] : q1[1] * inverse + 0.0;
+    q1[2] = symmetric ? p1[2] : q1[2] * inverse + 0.0;
+    q2[0] = symmetric ? p2[0] : q2[0] * inverse + 0.0;
+    q2[1] = symmetric ? p2[1] : q2[1] * inverse + 0.0;
+    q2[2] = symmetric ? p2[2] : q2[2] * inverse + 0.0;
+    double mean = batch->mean[lane], unscale = batch->unscale[lane],
+           coupling = batch->coupling[lane];
+    double k0 = batch->k[0][lane] + mean, k1 = batch->k[1][lane] + mean,
+           k2 = batch->k[2][lane] + mean;
+    double scale = batch->scale[lane], error = 0.0;
+    load_block(s, lane, m);
 #define COLUMN(j)                                                                                  \
   do {                                                                                             \
     double g0 = k0 * q0[j], g1 = k1 * q1[j] + coupling * q2[j],                                    \
@@ -334,25 +334,24 @@ CDEM_MULTIVERSION void cdem_springs_kernel3_finish(const double *restrict s, int
     double e2 = p0[2] * g0 + p1[2] * g1 + p2[2] * g2 - scale * m[6 + j];                           \
     error += e0 * e0 + e1 * e1 + e2 * e2;                                                          \
   } while (0)
-      COLUMN(0);
-      COLUMN(1);
-      COLUMN(2);
+    COLUMN(0);
+    COLUMN(1);
+    COLUMN(2);
 #undef COLUMN
-      double cond = symmetric ? 1.0 : condition(p0, p1, p2, det), norm2 = batch->norm2[lane];
-      const double bound2 = 0.01 * CDEM_SPRINGS_BOUND * CDEM_SPRINGS_BOUND;
-      batch->cond[lane] = cond;
-      batch->wanting[lane] = error > CDEM_SPRINGS_IMPROVE2 * norm2 ? 1.0 : 0.0;
-      double exact = error <= bound2 * norm2 ? 1.0 : 0.0, normal = unscale > 0.0 ? 1.0 : 0.0;
-      double mild = cond <= CDEM_SPRINGS_MAX_COND ? 1.0 : 0.0;
-      double ascent = coupling > 0.0 ? 0.0 : cdem_larger(k1 - k0, k2 - k1);
-      double order = ascent <= 0.0 ? 1.0 : 0.0;
-      batch->accepted[lane] = exact * normal * mild * order;
-      batch->row[0][0][lane] = k0 * unscale + 0.0, batch->row[0][1][lane] = 0.0;
-      batch->row[1][0][lane] = k1 * unscale + 0.0, batch->row[1][1][lane] = coupling * unscale;
-      batch->row[2][0][lane] = k2 * unscale + 0.0,
-      batch->row[2][1][lane] = 0.0 - coupling * unscale;
-      save3(p0, batch->row[0] + 2, lane), save3(q0, batch->row[0] + 5, lane);
-      save3(p1, batch->row[1] + 2, lane), save3(q1, batch->row[1] + 5, lane);
-      save3(p2, batch->row[2] + 2, lane), save3(q2, batch->row[2] + 5, lane);
-    }
+    double cond = symmetric ? 1.0 : condition(p0, p1, p2, det), norm2 = batch->norm2[lane];
+    const double bound2 = 0.01 * CDEM_SPRINGS_BOUND * CDEM_SPRINGS_BOUND;
+    batch->cond[lane] = cond;
+    batch->wanting[lane] = error > CDEM_SPRINGS_IMPROVE2 * norm2 ? 1.0 : 0.0;
+    double exact = error <= bound2 * norm2 ? 1.0 : 0.0, normal = unscale > 0.0 ? 1.0 : 0.0;
+    double mild = cond <= CDEM_SPRINGS_MAX_COND ? 1.0 : 0.0;
+    double ascent = coupling > 0.0 ? 0.0 : cdem_larger(k1 - k0, k2 - k1);
+    double order = ascent <= 0.0 ? 1.0 : 0.0;
+    batch->accepted[lane] = exact * normal * mild * order;
+    batch->row[0][0][lane] = k0 * unscale + 0.0, batch->row[0][1][lane] = 0.0;
+    batch->row[1][0][lane] = k1 * unscale + 0.0, batch->row[1][1][lane] = coupling * unscale;
+    batch->row[2][0][lane] = k2 * unscale + 0.0, batch->row[2][1][lane] = 0.0 - coupling * unscale;
+    save3(p0, batch->row[0] + 2, lane), save3(q0, batch->row[0] + 5, lane);
+    save3(p1, batch->row[1] + 2, lane), save3(q1, batch->row[1] + 5, lane);
+    save3(p2, batch->row[2] + 2, lane), save3(q2, batch->row[2] + 5, lane);
+  }
 }

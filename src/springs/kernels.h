@@ -14,6 +14,15 @@
 
 enum { CDEM_SPRINGS_LANES = 8, CDEM_SPRINGS_FIELDS = 8 };
 
+/* Before a loop over lanes: no lane writes what another reads. */
+#if defined __clang__
+#define CDEM_SPRINGS_LANE_LOOP _Pragma("clang loop vectorize(assume_safety)")
+#elif defined __GNUC__
+#define CDEM_SPRINGS_LANE_LOOP _Pragma("GCC ivdep")
+#else
+#define CDEM_SPRINGS_LANE_LOOP
+#endif
+
 /* One number a lane. Truth values are 0.0 and 1.0: masks as wide as the numbers they choose. */
 typedef double cdem_lanes[CDEM_SPRINGS_LANES] __attribute__((aligned(64)));
 

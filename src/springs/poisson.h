@@ -51,9 +51,11 @@ typedef struct {
   cdem_form start;        /* above `low`; diagonal when double everywhere */
 } cdem_poisson_roots;
 
-/* Two values nearer than this, relative to the block's norm, are equal; the rounding of the blocks
- * reaches 1e-11 at a zero of fourth order, and nothing a mesh can do by chance comes near. */
-#define CDEM_POISSON_TOUCH 1e-9
+/* Two values nearer than this, relative to the block's norm, are equal: where a defect meets a
+ * touch the rounding 1e-16 of a block parts them by its root, 1e-8. Nothing a mesh does by chance
+ * comes as near, and a critical ratio at an end of the range, which is none, is known by the same
+ * measure. */
+#define CDEM_POISSON_TOUCH 1e-7
 
 /* All critical ratios of a pencil. */
 void cdem_poisson_find_roots(const cdem_pencil *pencil, cdem_poisson_roots *roots);

@@ -232,7 +232,8 @@ static int order_of_zero(const polynomial *p, int degree, bool odd, wide reach, 
 
 static void add_root(const cdem_pencil *pencil, const invariants *v, wide x, int order, wide before,
                      wide after, cdem_poisson_roots *roots) {
-  if (roots->count == CDEM_POISSON_ROOTS || !(magnitude(x) < (wide)(1.0 - 1e-9)))
+  bool at_end = same_zero(v, x, -1) || same_zero(v, x, 1);
+  if (roots->count == CDEM_POISSON_ROOTS || (at_end && !roots->double_everywhere))
     return;
   wide middle = ((wide)pencil->low + pencil->high) / 2,
        half = ((wide)pencil->high - pencil->low) / 2;
@@ -249,7 +250,7 @@ static void add_root(const cdem_pencil *pencil, const invariants *v, wide x, int
 
 static bool is_double_everywhere(const invariants *v) {
   for (int i = 0; i <= 32; i++)
-    if (squared_gap(v, (wide)(i - 16) / 16) > 1e-14)
+    if (squared_gap(v, (wide)(i - 16) / 16) > CDEM_POISSON_TOUCH * CDEM_POISSON_TOUCH)
       return false;
   return true;
 }

@@ -8,14 +8,23 @@
  *     S = sum over rows of dir (x) (stiffness * dual + coupling * dual[spring couples_to]) (1)
  *
  * Forms
- *   diagonal  two or three springs, no coupling; stiffness descending.
- *   complex   (3-D) spring 1 real, springs 2 and 3 the pair a +- ib: dirs Re v and Im v, |Re v| =
- * |Im v|, row 2 couples +b to 3, row 3 couples -b to 2, b > 0. 2x2 blocks: springs 1 and 2 are the
- * pair. jordan2   spring 1 real, springs 2 and 3 an orthonormal pair with row 2 coupled to 3 (2x2:
- * 1 and 2). jordan3   three orthonormal springs, row 1 coupled to 2, row 2 to 3; a coupling of row
- * 1 to 3 is an extra row with the same spring, dir and dual and stiffness 0. frame     transversely
- * isotropic symmetric blocks S = k1 d d^T + k2 (I - d d^T): one spring along d and three in the
- * normal plane 120 degrees apart, each h = (2/3) k2; dual = dir, no P.
+ *
+ * - diagonal: two or three springs, no coupling; stiffness descending. Equal stiffnesses leave
+ *   their plane's directions free: the first is then chosen as for a frame, the second is normal to
+ *   it; three equal ones lie along the axes.
+ *
+ * - complex: (3-D) spring 1 real, springs 2 and 3 the pair a +- ib: dirs Re v and Im v, |Re v| =
+ *   |Im v|, row 2 couples +b to 3, row 3 couples -b to 2, b > 0. 2x2 blocks: springs 1 and 2 are
+ * the pair.
+ *
+ * - jordan2: spring 1 real, springs 2 and 3 an orthonormal pair with row 2 coupled to 3 (2x2: 1 and
+ *   2).
+ *
+ * - jordan3: three orthonormal springs, row 1 coupled to 2, row 2 to 3; a coupling of row 1 to 3 is
+ *   an extra row with the same spring, dir and dual and stiffness 0.
+ *
+ * - frame: transversely isotropic symmetric blocks S = k1 d d^T + k2 (I - d d^T): one spring along
+ * d and three in the normal plane 120 degrees apart, each h = (2/3) k2; dual = dir, no P.
  *
  * Near a defect neither the diagonal nor the exact Jordan form keeps 1e-12, so when cond(P) of the
  * eigenvectors exceeds CDEM_SPRINGS_MAX_COND the plane of the nearly equal pair is kept in an
@@ -25,6 +34,10 @@
  * spring 1 is worse than CDEM_SPRINGS_MAX_COND, the whole block is kept in its orthonormal Schur
  * basis: jordan3, or complex with spring 1 coupled to 2 and 3. Equation (1) then holds to 1e-12 of
  * |S| at any distance from a defect.
+ *
+ * Differences below 1e-14 |S| are rounding of the block and choose no form: such a skew part leaves
+ * it symmetric (P orthonormal, dual = dir), such a coupling leaves it diagonal, such a split of two
+ * values leaves them equal. A block times a power of two has the same directions, bit by bit.
  *
  * Signs and order are canonical: the last component of dir that exceeds 1e-6 in size is positive
  * (complex: of Re v, and then Im v follows from b > 0 with Re v . Im v >= 0); diagonal stiffnesses
@@ -99,7 +112,8 @@ cdem_status cdem_springs_from_block(const double *s, int size, bool frame, cdem_
  * s[(i/8)*size*size*8 + e*8 + i%8]; the last batch is padded by repeating a valid block (any finite
  * values). frame [n] (NULL: nowhere): recognise frames for block i. Blocks for which the closed
  * form does not reach CDEM_SPRINGS_BOUND/10 are done again by the robust path. set [n]. Serial;
- * call it from many threads. */
+ * call it from many threads. A set does not depend on the other blocks. CDEM_NUMERIC when a block
+ * is not finite, with its index; all n sets are then zero. */
 cdem_status cdem_springs_from_blocks(const double *s, int64_t n, int size, const bool *frame,
                                      cdem_spring_set *set, cdem_fault *fault);
 

@@ -11,23 +11,22 @@ _Static_assert(offsetof(cdem_spring_row, coupling) == 1 * sizeof(double) &&
                    offsetof(cdem_spring_row, spring) == 8 * sizeof(double),
                "a row starts with stiffness, coupling, dir, dual, as in cdem_batch");
 
-#define LOW(a, b)   __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14)
-#define HIGH(a, b)  __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15)
-#define LOW2(a, b)  __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13)
-#define HIGH2(a, b) __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15)
-#define LOW4(a, b)  __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11)
-#define HIGH4(a, b) __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15)
+/* Four doubles: the widest vector that AVX2 and AVX-512 both exchange in single instructions. */
+typedef double vec4 __attribute__((vector_size(32)));
+typedef double vec4_at __attribute__((vector_size(32), aligned(8), may_alias));
 
-/* out[lane] = the eight fields of one lane: three rounds of exchange, at distance 1, 2 and 4. */
-CDEM_ALWAYS_INLINE void transpose(const cdem_lanes *field, cdem_vec8 out[8]) {
-  const cdem_vec8 *f = (const cdem_vec8 *)field;
-  cdem_vec8 a0 = LOW(f[0], f[1]), a1 = HIGH(f[0], f[1]), a2 = LOW(f[2], f[3]),
-            a3 = HIGH(f[2], f[3]), a4 = LOW(f[4], f[5]), a5 = HIGH(f[4], f[5]),
-            a6 = LOW(f[6], f[7]), a7 = HIGH(f[6], f[7]);
-  cdem_vec8 b0 = LOW2(a0, a2), b1 = LOW2(a1, a3), b2 = HIGH2(a0, a2), b3 = HIGH2(a1, a3),
-            b4 = LOW2(a4, a6), b5 = LOW2(a5, a7), b6 = HIGH2(a4, a6), b7 = HIGH2(a5, a7);
-  out[0] = LOW4(b0, b4), out[1] = LOW4(b1, b5), out[2] = LOW4(b2, b6), out[3] = LOW4(b3, b7);
-  out[4] = HIGH4(b0, b4), out[5] = HIGH4(b1, b5), out[6] = HIGH4(b2, b6), out[7] = HIGH4(b3, b7);
+/* Four fields of four lanes, from lane `first` on, as four neighbours in the row of each lane. */
+CDEM_ALWAYS_INLINE void transpose(const cdem_lanes *field, int first, vec4 of_lane[4]) {
+  vec4 a = *(const vec4_at *)&field[0][first], b = *(const vec4_at *)&field[1][first];
+  vec4 c = *(const vec4_at *)&field[2][first], d = *(const vec4_at *)&field[3][first];
+  vec4 ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  vec4 ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  vec4 cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  vec4 cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  of_lane[0] = __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5);
+  of_lane[1] = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5);
+  of_lane[2] = __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7);
+  of_lane[3] = __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7);
 }
 
 /* Everything of a set but the eight numbers a row. */
@@ -54,12 +53,17 @@ CDEM_MULTIVERSION void cdem_springs_store(const cdem_batch *batch, int size, int
                                           cdem_spring_set *set) {
   for (; count > 0; batch++, set += CDEM_SPRINGS_LANES, count -= CDEM_SPRINGS_LANES) {
     int lanes = count < CDEM_SPRINGS_LANES ? count : CDEM_SPRINGS_LANES;
-    for (int r = 0; r < size; r++) {
-      cdem_vec8 of_lane[CDEM_SPRINGS_LANES];
-      transpose(batch->row[r], of_lane);
-      for (int lane = 0; lane < lanes; lane++)
-        *(cdem_vec8_at *)&set[lane].row[r] = of_lane[lane];
-    }
+    for (int r = 0; r < size; r++)
+      for (int first = 0; first < lanes; first += 4) {
+        vec4 low[4], high[4];
+        transpose(batch->row[r], first, low);
+        transpose(batch->row[r] + 4, first, high);
+        for (int k = 0; k < 4 && first + k < lanes; k++) {
+          vec4_at *to = (vec4_at *)&set[first + k].row[r];
+          to[0] = low[k];
+          to[1] = high[k];
+        }
+      }
     for (int lane = 0; lane < lanes; lane++)
       put_labels(batch, lane, size, &set[lane]);
   }

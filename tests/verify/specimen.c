@@ -114,6 +114,48 @@ static void closed_forms_hold_for_all_pairs(void **state) {
   }
 }
 
+/* The form a decomposition finds is the form the critical ratios tell, for every element, distorted
+ * or not; near a change (cond(P) above 100) the decomposition may call it otherwise. */
+static void roots_tell_the_form_everywhere(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  cdem_random random = {51};
+  for (int e = 0; e < 2 * CDEM_ELEMENT_COUNT; e++) {
+    cdem_specimen specimen =
+        made(cdem_element_get((cdem_element_id)(e / 2))->name, (cdem_specimen_options){0});
+    if (e % 2 == 1) {
+      cdem_specimen_options options = specimen.options;
+      double xyz[CDEM_SHAPE_MAX_NODES][3];
+      memcpy(xyz, specimen.xyz, sizeof xyz);
+      for (int a = 0; a < cdem_element_nodes(options.element); a++)
+        for (int d = 0; d < cdem_element_dimension(options.element); d++)
+          xyz[a][d] += cdem_random_uniform(&random, -0.06, 0.06);
+      options.xyz = (const double(*)[3])xyz;
+      cdem_specimen_release(&specimen);
+      check_ok(cdem_specimen_init(&options, &specimen, &fault));
+    }
+    for (int p = 0; p < cdem_element_pairs(specimen.options.element) && p < 4; p++) {
+      cdem_specimen_pair pair = cdem_specimen_pair_at(&specimen, p);
+      cdem_poisson_family family = cdem_specimen_family(&pair);
+      cdem_poisson_study study;
+      check_ok(cdem_poisson_study_init(&family, &study, &fault));
+      for (int i = 0; i < 40; i++) {
+        double nu = cdem_random_uniform(&random, -0.99, 0.49), s[9];
+        cdem_spring_set set;
+        check_ok(family.block(family.context, nu, s, &fault));
+        check_ok(cdem_springs_from_block(s, family.size, false, &set, &fault));
+        int below = 0;
+        while (below < study.roots.count && study.roots.root[below].nu < nu)
+          below++;
+        cdem_form form = below == 0 ? study.roots.start : study.roots.root[below - 1].to;
+        if (set.cond < 100 && !study.roots.double_everywhere)
+          assert_int_equal(set.form, form);
+      }
+    }
+    cdem_specimen_release(&specimen);
+  }
+}
+
 static void mistakes_are_told(void **state) {
   (void)state;
   cdem_fault fault = {0};
@@ -140,8 +182,11 @@ static void mistakes_are_told(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(edges_have_unit_length), cmocka_unit_test(blocks_are_the_element_stiffness),
-      cmocka_unit_test(pairs_and_classes),      cmocka_unit_test(closed_forms_hold_for_all_pairs),
+      cmocka_unit_test(edges_have_unit_length),
+      cmocka_unit_test(blocks_are_the_element_stiffness),
+      cmocka_unit_test(pairs_and_classes),
+      cmocka_unit_test(closed_forms_hold_for_all_pairs),
+      cmocka_unit_test(roots_tell_the_form_everywhere),
       cmocka_unit_test(mistakes_are_told),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
