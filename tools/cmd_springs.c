@@ -57,7 +57,10 @@ static const struct argp_option option_table[] = {
     {"output", 'o', "FILE", 0,
      "write the springs; the ending chooses the kind, see `cdem list formats` (may be repeated)",
      3},
-    {"format", OPTION_FORMAT, "KIND", 0, "kind of output, whatever the ending", 3},
+    {"format", OPTION_FORMAT, "KIND", 0,
+     "kind of output, whatever the ending; `-o -` is standard output, csv unless this says "
+     "otherwise",
+     3},
     {"class", OPTION_CLASS, "NAME[,NAME]", 0, "write only edge, face, body springs", 3},
     {"form", OPTION_FORM, "NAME[,NAME]", 0,
      "write only diagonal, jordan2, jordan3, complex, frame sets", 3},
@@ -334,8 +337,9 @@ static void check_material_options(settings *s) {
 }
 
 static const cdem_springs_format *format_of(const settings *s, const char *path) {
+  const char *name = s->format != NULL ? s->format : strcmp(path, "-") == 0 ? "csv" : NULL;
   const cdem_springs_format *format =
-      s->format != NULL ? cdem_springs_format_find(s->format) : cdem_springs_format_of(path);
+      name != NULL ? cdem_springs_format_find(name) : cdem_springs_format_of(path);
   if (format != NULL)
     return format;
   char known[256] = "";

@@ -104,8 +104,9 @@ void cdem_json_number(FILE *stream, double value);
 
 /* ---- figures out (gnuplot.c) ---- */
 
-/* Draws FOLDER/NAME.png and .svg with gnuplot (child process) and keeps NAME.gp and NAME.dat beside
- * them. CDEM_FILE with the remedy when gnuplot is missing. */
+/* Draws FOLDER/NAME.png and .svg (the folder is made where it is missing) with gnuplot (child
+ * process) and keeps NAME.gp and NAME.dat beside them. CDEM_FILE with the remedy when gnuplot is
+ * missing. */
 cdem_status cdem_write_figure(const char *folder, const char *name, const cdem_figure *figure,
                               cdem_fault *fault);
 

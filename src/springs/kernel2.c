@@ -38,10 +38,8 @@ CDEM_MULTIVERSION void cdem_springs_kernel2(const double *restrict s, int batche
     const double bound2 = 0.01 * CDEM_SPRINGS_BOUND * CDEM_SPRINGS_BOUND;
     batch->cond[lane] = cond;
     batch->conjugate[lane] = pair.conjugate ? 1.0 : 0.0;
-    batch->accepted[lane] = (error <= bound2 * norm2) & (cond <= CDEM_SPRINGS_MAX_COND) &
-                                    (unscale > 0.0) & (norm2 > 0.0)
-                                ? 1.0
-                                : 0.0;
+    double exact = error <= bound2 * norm2 ? 1.0 : 0.0, normal = unscale * norm2 > 0.0 ? 1.0 : 0.0;
+    batch->accepted[lane] = exact * normal * (cond <= CDEM_SPRINGS_MAX_COND ? 1.0 : 0.0);
     batch->row[0][0][lane] = k0 * unscale + 0.0, batch->row[0][1][lane] = coupling * unscale;
     batch->row[1][0][lane] = k1 * unscale + 0.0, batch->row[1][1][lane] = 0.0 - coupling * unscale;
     batch->row[0][2][lane] = ax, batch->row[0][3][lane] = ay, batch->row[0][4][lane] = 0.0;

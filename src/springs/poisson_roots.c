@@ -150,13 +150,14 @@ static wide bisect(const polynomial *p, wide low, wide high) {
 
 /* Sign changes of p on (-1, 1), ascending. Between neighbouring zeros of the derivative p is
  * monotonic, so each holds at most one; starting from the constant last derivative, all are found.
- */
-static int sign_changes(const polynomial *p, int degree, wide *zero) {
-  wide turn[DEGREE + 2] = {-1};
+ * turn [DEGREE + 2] receives the zeros of the first derivative at 1 .. *turning, on the way. */
+static int sign_changes(const polynomial *p, int degree, wide *zero, wide *turn, int *turning) {
   int turns = 1, zeros = 0;
+  turn[0] = -1;
   for (int k = degree - 1; k >= 0; k--) {
     polynomial q = taylor(p, k);
     turn[turns] = 1;
+    *turning = turns - 1;
     zeros = 0;
     for (int i = 0; i < turns; i++) {
       wide left = evaluate(&q, turn[i]), right = evaluate(&q, turn[i + 1]);
@@ -165,9 +166,8 @@ static int sign_changes(const polynomial *p, int degree, wide *zero) {
       else if (right == 0 && i + 1 < turns)
         zero[zeros++] = turn[i + 1]; /* exactly zero at a turning point: keep it as a turn */
     }
-    turns = 1;
-    for (int i = 0; i < zeros; i++)
-      turn[turns++] = zero[i];
+    for (turns = 1; k > 0 && turns <= zeros; turns++)
+      turn[turns] = zero[turns - 1];
   }
   return zeros;
 }
@@ -179,11 +179,10 @@ static int compare(const void *a, const void *b) {
 
 /* Sign changes of the discriminant, and its turning points at which two values are equal. */
 static int find_candidates(const invariants *v, wide *candidate) {
-  polynomial derivative = taylor(&v->discriminant, 1);
-  wide turn[DEGREE + 1];
-  int degree = v->size == 2 ? 2 : 6, count = sign_changes(&v->discriminant, degree, candidate);
-  int turns = sign_changes(&derivative, degree - 1, turn);
-  for (int i = 0; i < turns; i++)
+  wide turn[DEGREE + 2];
+  int degree = v->size == 2 ? 2 : 6, turns;
+  int count = sign_changes(&v->discriminant, degree, candidate, turn, &turns);
+  for (int i = 1; i <= turns; i++)
     if (is_touch(v, turn[i]))
       candidate[count++] = turn[i];
   qsort(candidate, (size_t)count, sizeof *candidate, compare);

@@ -150,8 +150,13 @@ static void places_that_cannot_be_written(void **state) {
   cdem_panel panel[2];
   cdem_curve curve[4];
   cdem_figure figure = make(panel, curve);
-  check_fails(cdem_write_figure(in_scratch("none"), "f", &figure, &fault), CDEM_FILE,
-              "No such file or directory");
+  FILE *in_the_way = fopen(in_scratch("none"), "w");
+  assert_non_null(in_the_way);
+  fclose(in_the_way);
+  check_fails(cdem_write_figure(in_scratch("none/deeper"), "f", &figure, &fault), CDEM_FILE,
+              "Not a directory");
+  check_ok(cdem_write_figure(in_scratch("new/folder/"), "f", &figure, &fault));
+  assert_int_equal(access(in_scratch("new/folder/f.png"), F_OK), 0);
   check_fails(cdem_write_figure(scratch, "a/b", &figure, &fault), CDEM_USAGE,
               "cannot be the name of a figure");
   check_fails(cdem_write_figure(scratch, "", &figure, &fault), CDEM_USAGE,
