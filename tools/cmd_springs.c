@@ -510,7 +510,8 @@ int cmd_springs(int argc, char **argv) {
                            .model = &t.model,
                            .outputs = s.outputs,
                            .output = s.output,
-                           .certified = s.certify || (s.outputs == 0 && s.removals == 0)};
+                           .certified = s.certify ||
+                                        (s.outputs == 0 && s.removals == 0 && s.figures == NULL)};
   int code = 0;
   if (work(&s, &t, &report, &fault) != CDEM_OK) {
     code = command_fail(&fault);

@@ -1,4 +1,5 @@
 /* cdem verify [GROUP...]: runs the verification suite, prints each number beside its source. */
+#include "base/suggest.h"
 #include "command.h"
 #include "verify/verify.h"
 
@@ -50,6 +51,19 @@ static bool is_chosen(const settings *s, const char *name) {
     if (strcmp(s->group[i], name) == 0)
       return true;
   return s->groups == 0;
+}
+
+static void check_group(const char *name) {
+  const char *names[MOST_GROUPS];
+  int count = 0;
+  if (cdem_verify_group_find(name) != NULL)
+    return;
+  for (; count < MOST_GROUPS && cdem_verify_group_at(count) != NULL; count++)
+    names[count] = cdem_verify_group_at(count)->name;
+  const char *nearest = cdem_suggest(name, names, count);
+  if (nearest != NULL)
+    command_usage("there is no group '%s'; did you mean '%s'?", name, nearest);
+  command_usage("there is no group '%s'; `cdem verify --list` shows them", name);
 }
 
 static void list_checks(const settings *s) {
@@ -111,9 +125,8 @@ int cmd_verify(int argc, char **argv) {
       NULL};
   settings s = {0};
   command_parse(&argp, argc, argv, &s);
-  for (int i = 0; s.list && i < s.groups; i++)
-    if (cdem_verify_group_find(s.group[i]) == NULL)
-      command_usage("there is no group '%s'; `cdem verify --list` shows them", s.group[i]);
+  for (int i = 0; i < s.groups; i++)
+    check_group(s.group[i]);
   if (s.list) {
     list_checks(&s);
     return 0;

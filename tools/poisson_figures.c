@@ -51,9 +51,9 @@ static void choose_range(const cdem_poisson_study *study, const poisson_range *r
     if (root->from == root->to)
       continue;
     if (root->nu < 0.25)
-      *from = fmax(*from, root->nu + 1e-5);
+      *from = fmax(*from, root->nu + 5e-7);
     else
-      *to = root->nu - 1e-5; /* bounded stiffnesses: up to the change itself */
+      *to = root->nu - 5e-7; /* bounded stiffnesses: up to the change itself */
   }
 }
 
@@ -146,7 +146,8 @@ static cdem_status sample(cdem_specimen_pair *pair, const poisson_range *range, 
   data->axis_x[0] = range != NULL ? from : 0.0;
   data->axis_x[1] = range != NULL ? to : 0.5;
   for (int i = 0; i < POINTS; i++) {
-    data->nu[i] = from + (to - from) * i / (POINTS - 1);
+    data->nu[i] = from + (to - from) * (1.0 - cos(acos(-1.0) * i / (POINTS - 1))) /
+                             2.0; /* dense at the ends, where roots are vertical */
     CDEM_TRY(cdem_poisson_follow(&data->study, data->nu[i], &row, fault));
     keep_row(data, i, &row);
   }

@@ -109,8 +109,7 @@ static cdem_status distribute(sample *s, double **share, cdem_fault *fault) {
 }
 
 cdem_status springs_figure_write(springs_figure *figure, const char *folder, cdem_fault *fault) {
-  static const char *const title[QUANTITIES] = {"(a) stiffness", "(b) stiffest spring",
-                                                "(c) skewness"};
+  static const char *const title[QUANTITIES] = {"stiffness", "stiffest spring", "skewness"};
   static const char *const label[QUANTITIES] = {"stiffness of a spring (MN/m)",
                                                 "angle to the line of its nodes (degrees)",
                                                 "skew fraction |S - S^T| / (2 |S|)"};

@@ -123,7 +123,7 @@ static void fill_pair(const cdem_model *model, int32_t index, int lane, int p, i
   pair->node[1] = node[b];
   pair->local[0] = (uint8_t)a;
   pair->local[1] = (uint8_t)b;
-  pair->class_ = (uint8_t)(cdem_shape_pair_class(element->shape, a, b) - 1);
+  pair->class_ = model->kinds_of[model->kind[index]].class_[p];
   for (int e = 0; e < entries; e++)
     pair->block[e] = work->block[(p * entries + e) * CDEM_LANES + lane];
   pair->set = work->set[p * CDEM_LANES + lane];
@@ -150,14 +150,12 @@ static cdem_status convert_batch(const conversion *task, const int32_t *index, c
   if (cosserat)
     scale_rotation(work->block, pairs, 1.0 / model->length);
 
-  for (int a = 0, p = 0; a < nodes; a++)
-    for (int b = a + 1; b < nodes; b++, p++) {
-      bool frame = !cosserat &&
-                   (rule == CDEM_FRAME_ALL ||
-                    (rule == CDEM_FRAME_BODY && cdem_shape_pair_class(element->shape, a, b) == 3));
-      for (int lane = 0; lane < CDEM_LANES; lane++)
-        work->frame[p * CDEM_LANES + lane] = frame;
-    }
+  for (int p = 0; p < pairs; p++) {
+    bool body = model->kinds_of[model->kind[index[0]]].class_[p] == CDEM_CLASS_BODY;
+    bool frame = !cosserat && (rule == CDEM_FRAME_ALL || (rule == CDEM_FRAME_BODY && body));
+    for (int lane = 0; lane < CDEM_LANES; lane++)
+      work->frame[p * CDEM_LANES + lane] = frame;
+  }
   CDEM_TRY(decompose(task, element, work, fault));
   if (cosserat)
     scale_rotation(work->block, pairs, model->length);

@@ -126,6 +126,10 @@ static cdem_status kind_of_shape(cdem_model *model, cdem_shape shape, int64_t ta
                model->formulation == CDEM_PLANE_COSSERAT ? "Cosserat " : "",
                cdem_shape_get(shape)->name);
   CDEM_TRY(cdem_tabulation_init(element, degree, &model->kinds_of[model->kinds].tabulation, fault));
+  uint8_t *class_ = model->kinds_of[model->kinds].class_;
+  for (int a = 0; a < cdem_element_nodes(element); a++)
+    for (int b = a + 1; b < cdem_element_nodes(element); b++)
+      *class_++ = (uint8_t)(cdem_shape_pair_class(shape, a, b) - 1);
   model->kinds++;
   return CDEM_OK;
 }

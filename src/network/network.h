@@ -39,6 +39,7 @@ typedef struct {
 typedef struct {
   cdem_tabulation tabulation; /* holds the element */
   int64_t cells;
+  uint8_t class_[CDEM_MAX_PAIRS]; /* cdem_class of each pair */
 } cdem_model_kind;
 
 typedef struct {

@@ -435,7 +435,7 @@ cdem_status cdem_poisson_at(const cdem_poisson_study *study, double nu, cdem_poi
   CDEM_REQUIRE(nu > family->low && nu < family->high, fault, CDEM_INPUT,
                "Poisson's ratio %g is outside its range: it must lie between %g and %g", nu,
                family->low, family->high);
-  cdem_poisson_row made;
+  cdem_poisson_row made = {0};
   int touch = touch_near(study, nu);
   if (study->roots.double_everywhere)
     CDEM_TRY(row_of_double(study, nu, &made, fault));
@@ -474,7 +474,7 @@ static void follow_signs(const cdem_poisson_row *before, cdem_poisson_row *row) 
 cdem_status cdem_poisson_follow(const cdem_poisson_study *study, double nu, cdem_poisson_row *row,
                                 cdem_fault *fault) {
   enum { MOST_STEPS = 200 };
-  cdem_poisson_row now = *row, next;
+  cdem_poisson_row now = *row, next = {0};
   int steps = row->size == 0 ? 1 : (int)ceil(fabs(nu - row->nu) / 0.01);
   steps = steps < 1 ? 1 : steps > MOST_STEPS ? MOST_STEPS : steps;
   for (int i = 1; i <= steps; i++) {

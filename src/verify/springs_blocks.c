@@ -53,7 +53,8 @@ cdem_status cdem_springs_measure_near_jordan(int parameter, double *value, cdem_
   for (int i = 0; i < 3 * 2 * 17 && status == CDEM_OK; i++) {
     cdem_specimen_pair pair = cdem_specimen_pair_at(&cube, i % 3 < 2 ? 0 : 1); /* 1-2, 1-3 */
     cdem_poisson_family family = cdem_specimen_family(&pair);
-    double s[9], nu = critical[i % 3] + (i / 3 % 2 ? 1 : -1) * pow(10.0, -(i / 6));
+    int side = i / 3 % 2 == 1 ? 1 : -1, power = i / 6;
+    double s[9], nu = critical[i % 3] + side * pow(10.0, -power);
     cdem_spring_set set;
     if (!(nu > -1.0 && nu < 0.5))
       continue;

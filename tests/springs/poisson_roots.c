@@ -52,6 +52,34 @@ static void cube_has_the_known_roots(void **state) {
   assert_true(roots.double_everywhere);
 }
 
+/* data/reference/cube-critical-ratios.csv, which `cdem poisson --roots` is compared with. */
+static void reference_table_holds_the_roots(void **state) {
+  (void)state;
+  FILE *file = fopen(CDEM_DATA "/reference/cube-critical-ratios.csv", "r");
+  assert_non_null(file);
+  char line[128], class_[16], from[16], to[16];
+  double nu;
+  int row[CDEM_CLASS_COUNT] = {0};
+  assert_non_null(fgets(line, sizeof line, file));
+  assert_string_equal(line, "class,nu,from,to\n");
+  while (fgets(line, sizeof line, file) != NULL) {
+    assert_int_equal(sscanf(line, "%15[^,],%lf,%15[^,],%15s", class_, &nu, from, to), 4);
+    cdem_class class_of = cdem_class_find(class_);
+    exact_pair pair = exact_cube_pair(class_of);
+    cdem_pencil pencil = exact_pencil(&pair);
+    cdem_poisson_roots roots;
+    cdem_poisson_find_roots(&pencil, &roots);
+    assert_true(row[class_of] < roots.count);
+    const cdem_poisson_root *root = &roots.root[row[class_of]++];
+    check_near(root->nu, nu, 0, 1e-13);
+    assert_string_equal(cdem_form_name(root->from), from);
+    assert_string_equal(cdem_form_name(root->to), to);
+  }
+  fclose(file);
+  assert_int_equal(row[CDEM_CLASS_EDGE], 4);
+  assert_int_equal(row[CDEM_CLASS_FACE], 2);
+}
+
 static void squares_change_at_zero(void **state) {
   (void)state;
   for (int plane_stress = 0; plane_stress < 2; plane_stress++) {
@@ -326,6 +354,7 @@ static void square_bricks_have_the_touches_of_their_symmetry(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(cube_has_the_known_roots),
+      cmocka_unit_test(reference_table_holds_the_roots),
       cmocka_unit_test(squares_change_at_zero),
       cmocka_unit_test(crossing_lines_are_touches),
       cmocka_unit_test(planted_changes_are_found),

@@ -46,7 +46,7 @@ static void blocks_are_the_element_stiffness(void **state) {
     const cdem_material material = cdem_specimen_material(&specimen, 0.2);
     double length = cdem_material_length(&material);
     int size = specimen.family.size, n = size * cdem_element_nodes(element);
-    double s[CDEM_MAX_PAIRS * 9], *k = calloc((size_t)(n * n), sizeof *k);
+    double s[CDEM_MAX_PAIRS * 9], *k = calloc((size_t)n * (size_t)n, sizeof *k);
     check_ok(cdem_specimen_blocks(&specimen, 0.2, s, &fault));
     check_ok(cdem_element_stiffness(&specimen.tabulation, &material, &specimen.options.section,
                                     (const double(*)[3])specimen.xyz, k, &fault));

@@ -2,7 +2,9 @@
  * carried out, a wrong name, or a wish to stop is told as it should be. */
 #include "verify/verify.h"
 
+#include "springs/springs.h"
 #include "support/test.h"
+#include "verify/springs.h"
 
 static void print_skipped(void *context, const char *group, const char *name, const char *reason) {
   (*(int *)context)++;
@@ -28,6 +30,28 @@ static void every_check_passes(void **state) {
   assert_int_equal(skipped, 0);
   assert_true(list.checks >= 30);
   cdem_check_list_release(&list);
+}
+
+/* data/reference/depletion.csv: six digits, half a unit of the last one. */
+static void reference_table_holds_the_depletion(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  FILE *file = fopen(CDEM_DATA "/reference/depletion.csv", "r");
+  assert_non_null(file);
+  char line[128], class_[16];
+  double nu, lowest, value;
+  int rows = 0;
+  assert_non_null(fgets(line, sizeof line, file));
+  while (fgets(line, sizeof line, file) != NULL) {
+    assert_int_equal(sscanf(line, "%15[^,],%lf,%lf", class_, &nu, &lowest), 3);
+    int which = nu == 0.25 ? 0 : nu == 0.2 ? 1 : 2;
+    check_ok(cdem_springs_measure_depletion_lowest(10 * (int)cdem_class_find(class_) + which,
+                                                   &value, &fault));
+    check_near(value, lowest, 5e-6, 1e-15);
+    rows++;
+  }
+  fclose(file);
+  assert_int_equal(rows, 9);
 }
 
 static void tables_are_sound(void **state) {
@@ -111,6 +135,7 @@ static void checks_that_cannot_run_are_told(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_check_passes),
+      cmocka_unit_test(reference_table_holds_the_depletion),
       cmocka_unit_test(tables_are_sound),
       cmocka_unit_test(unknown_groups_are_named),
       cmocka_unit_test(checks_that_cannot_run_are_told),
