@@ -15,13 +15,13 @@
 enum { CHUNK_PAIRS = 1792 };
 
 typedef struct {
-  cdem_pair *pair;      /* [largest chunk] */
-  double *coordinates;  /* [nodes][3][LANES] */
-  double *moment;       /* [pairs][9][LANES] */
-  double *block;        /* [pairs][9][LANES] */
-  bool *frame;          /* [pairs][LANES] */
-  cdem_spring_set *set; /* [pairs][LANES] */
-  cdem_buffer *buffer;  /* [sinks] */
+  cdem_pair *pair;       /* [largest chunk] */
+  double *coordinates;   /* [nodes][3][LANES] */
+  double *moment;        /* [pairs][9][LANES] */
+  double *block;         /* [pairs][9][LANES] */
+  bool *frame;           /* [pairs][LANES] */
+  cdem_spring_set **set; /* [pairs][LANES] where each set goes; NULL: idle lane */
+  cdem_buffer *buffer;   /* [sinks] */
 } workspace;
 
 typedef struct {
@@ -102,12 +102,13 @@ static cdem_status decompose(const conversion *task, const cdem_element *element
   int pairs = cdem_element_pairs(element), size = cdem_element_dofs(element), entries = size * size;
   int64_t blocks = (int64_t)pairs * CDEM_LANES;
   if (!task->options->reference)
-    return cdem_springs_from_blocks(work->block, blocks, size, work->frame, work->set, fault);
+    return cdem_springs_from_blocks_to(work->block, blocks, size, work->frame, work->set, fault);
   for (int64_t i = 0; i < blocks; i++) {
     double s[9];
     for (int e = 0; e < entries; e++)
       s[e] = work->block[(i / CDEM_LANES * entries + e) * CDEM_LANES + i % CDEM_LANES];
-    CDEM_TRY(cdem_springs_from_block(s, size, work->frame[i], &work->set[i], fault));
+    if (work->set[i] != NULL)
+      CDEM_TRY(cdem_springs_from_block(s, size, work->frame[i], work->set[i], fault));
   }
   return CDEM_OK;
 }
@@ -126,7 +127,6 @@ static void fill_pair(const cdem_model *model, int32_t index, int lane, int p, i
   pair->class_ = model->kinds_of[model->kind[index]].class_[p];
   for (int e = 0; e < entries; e++)
     pair->block[e] = work->block[(p * entries + e) * CDEM_LANES + lane];
-  pair->set = work->set[p * CDEM_LANES + lane];
 }
 
 /* Converts `cells` <= LANES cells of one kind; place[lane]: where the pairs of that cell begin. */
@@ -153,8 +153,10 @@ static cdem_status convert_batch(const conversion *task, const int32_t *index, c
   for (int p = 0; p < pairs; p++) {
     bool body = model->kinds_of[model->kind[index[0]]].class_[p] == CDEM_CLASS_BODY;
     bool frame = !cosserat && (rule == CDEM_FRAME_ALL || (rule == CDEM_FRAME_BODY && body));
-    for (int lane = 0; lane < CDEM_LANES; lane++)
+    for (int lane = 0; lane < CDEM_LANES; lane++) {
       work->frame[p * CDEM_LANES + lane] = frame;
+      work->set[p * CDEM_LANES + lane] = lane < cells ? &work->pair[place[lane] + p].set : NULL;
+    }
   }
   CDEM_TRY(decompose(task, element, work, fault));
   if (cosserat)

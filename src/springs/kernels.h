@@ -61,7 +61,8 @@ void cdem_springs_kernel3_finish(const double *s, int batches, cdem_batch *batch
  * are then done again and give the other lanes the same bits. */
 void cdem_springs_kernel3_improve(cdem_batch *batch);
 
-/* The sets of the first `count` lanes; those of lanes that are not accepted are to be replaced. */
-void cdem_springs_store(const cdem_batch *batch, int size, int count, cdem_spring_set *set);
+/* The sets of the first `count` lanes, but NULL ones; those of lanes that are not accepted are to
+ * be replaced. */
+void cdem_springs_store(const cdem_batch *batch, int size, int count, cdem_spring_set *const *set);
 
 #endif

@@ -117,6 +117,10 @@ cdem_status cdem_springs_from_block(const double *s, int size, bool frame, cdem_
 cdem_status cdem_springs_from_blocks(const double *s, int64_t n, int size, const bool *frame,
                                      cdem_spring_set *set, cdem_fault *fault);
 
+/* The same, each set to a place of its own: set [n]; NULL for a block that only fills a lane. */
+cdem_status cdem_springs_from_blocks_to(const double *s, int64_t n, int size, const bool *frame,
+                                        cdem_spring_set *const *set, cdem_fault *fault);
+
 /* Equation (1): s [size*size] row-major from the rows alone. */
 void cdem_springs_rebuild(const cdem_spring_set *set, double *s);
 

@@ -50,7 +50,7 @@ CDEM_ALWAYS_INLINE void put_labels(const cdem_batch *batch, int lane, int size,
 }
 
 CDEM_MULTIVERSION void cdem_springs_store(const cdem_batch *batch, int size, int count,
-                                          cdem_spring_set *set) {
+                                          cdem_spring_set *const *set) {
   for (; count > 0; batch++, set += CDEM_SPRINGS_LANES, count -= CDEM_SPRINGS_LANES) {
     int lanes = count < CDEM_SPRINGS_LANES ? count : CDEM_SPRINGS_LANES;
     for (int r = 0; r < size; r++)
@@ -59,12 +59,15 @@ CDEM_MULTIVERSION void cdem_springs_store(const cdem_batch *batch, int size, int
         transpose(batch->row[r], first, low);
         transpose(batch->row[r] + 4, first, high);
         for (int k = 0; k < 4 && first + k < lanes; k++) {
-          vec4_at *to = (vec4_at *)&set[first + k].row[r];
+          if (set[first + k] == NULL)
+            continue;
+          vec4_at *to = (vec4_at *)&set[first + k]->row[r];
           to[0] = low[k];
           to[1] = high[k];
         }
       }
     for (int lane = 0; lane < lanes; lane++)
-      put_labels(batch, lane, size, &set[lane]);
+      if (set[lane] != NULL)
+        put_labels(batch, lane, size, set[lane]);
   }
 }

@@ -126,29 +126,20 @@ static void material_options(const rebuild_case *c, rebuild_body *body) {
   }
 }
 
-/* The last box is in no group, the others in 1 and 2. */
-static void fill_mixed(bool cosserat, bool plane, rebuild_mesh *mesh) {
-  static const char *const solids[] = {"hex8", "wedge6", "pyr5", "tet4"};
-  static const char *const flats[] = {"quad4", "tri3", "quad4", "tri3"};
-  static const char *const cosserats[] = {"quad4-cosserat", "tri3-cosserat", "quad4-cosserat",
-                                          "tri3-cosserat"};
-  const char *const *kinds = cosserat ? cosserats : plane ? flats : solids;
-  for (int box = 0; box < 4; box++)
-    rebuild_mesh_add_box(mesh, kinds[box], box, box < 2 ? box + 1 : box == 2 ? 1 : 0);
-}
-
+/* With groups: the first three boxes are in 1, 2, 1, the others in none. */
 static void make_mesh(const rebuild_case *c, rebuild_mesh *mesh) {
   static const double square[3] = {1, 1, 1}, stretched[3] = {1.3, 0.8, 1.1};
-  uint64_t seed = 1;
+  static const int group[3] = {1, 2, 1};
+  char kinds[128], *rest = NULL;
+  mesh->seed = 1;
   for (const char *at = c->name; *at != '\0'; at++)
-    seed = seed * 131 + (unsigned char)*at;
-  bool mixed = strncmp(c->kind, "mixed", 5) == 0;
-  rebuild_mesh_fill(mesh, mixed ? "tri3" : c->kind, mixed ? 0 : 2, seed);
-  if (mixed) {
-    fill_mixed(strstr(c->kind, "cosserat") != NULL, strstr(c->kind, "plane") != NULL, mesh);
-    if (c->material != MATERIAL_BY_GROUP)
-      for (int k = 0; k < mesh->cells; k++)
-        mesh->cell[k].group = 0;
+    mesh->seed = mesh->seed * 131 + (unsigned char)*at;
+  snprintf(kinds, sizeof kinds, "%s", c->kinds);
+  int box = 0;
+  for (char *kind = strtok_r(kinds, " ", &rest); kind != NULL; kind = strtok_r(NULL, " ", &rest)) {
+    bool in_group = c->material == MATERIAL_BY_GROUP && box < 3;
+    rebuild_mesh_add_box(mesh, kind, box, in_group ? group[box] : 0);
+    box++;
   }
   rebuild_mesh_distort(mesh, c->amount, c->amount > 0 ? stretched : square);
 }

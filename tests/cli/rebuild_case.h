@@ -16,7 +16,7 @@ typedef enum rebuild_material {
 
 typedef struct rebuild_case {
   char name[64];
-  const char *kind; /* "mixed" fills each box with another kind */
+  const char *kinds; /* one for each box, between blanks */
   rebuild_material material;
   bool plane_stress;
   double poisson, couple_factor;

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* xorshift64* (Vigna 2016); the first numbers of a small seed are dropped by the caller's use. */
+/* xorshift64* (Vigna 2016); the seed must not be 0. */
 double rebuild_random(uint64_t *seed) {
   uint64_t s = *seed;
   s ^= s >> 12;
@@ -100,12 +100,6 @@ void rebuild_mesh_add_box(rebuild_mesh *mesh, const char *kind, int box, int gro
     if (strncmp(kind, splits[s].stem, strlen(splits[s].stem)) == 0)
       for (int c = 0; c < splits[s].cells; c++)
         add_cell(mesh, element, splits[s].corner[c], box, group);
-}
-
-void rebuild_mesh_fill(rebuild_mesh *mesh, const char *kind, int boxes, uint64_t seed) {
-  *mesh = (rebuild_mesh){.seed = seed * UINT64_C(0x9E3779B97F4A7C15) + 1};
-  for (int box = 0; box < boxes; box++)
-    rebuild_mesh_add_box(mesh, kind, box, 0);
 }
 
 void rebuild_random_axes(uint64_t *seed, int dimension, double axis[3][3]) {

@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-enum { REBUILD_MAX_NODES = 128, REBUILD_MAX_CELLS = 16, REBUILD_MAX_GROUPS = 4 };
+enum { REBUILD_MAX_NODES = 256, REBUILD_MAX_CELLS = 32, REBUILD_MAX_GROUPS = 4 };
 
 typedef struct rebuild_cell {
   const reference_element *element;
@@ -28,10 +28,8 @@ typedef struct rebuild_mesh {
 /* Uniform in -1 .. 1. */
 double rebuild_random(uint64_t *seed);
 
-/* Cells of one kind that fill `boxes` unit boxes side by side, in local orders turned at random. */
-void rebuild_mesh_fill(rebuild_mesh *mesh, const char *kind, int boxes, uint64_t seed);
-
-/* A box more, filled with `kind`, from x = box on; `group` as in rebuild_cell. */
+/* Cells of one kind that fill the unit box from x = box on, in local orders turned at random;
+ * boxes side by side share nodes. `group` as in rebuild_cell. */
 void rebuild_mesh_add_box(rebuild_mesh *mesh, const char *kind, int box, int group);
 
 /* Moves corners by up to `amount` in each direction and mid-edge nodes by a third of that from the
