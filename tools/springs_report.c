@@ -22,7 +22,7 @@ static int certificate_lines(const cdem_certificate *c, certificate_line line[LI
       {"translation", "no force in a translation, against B'DB", c->translation.value,
        c->translation_bound, &c->translation, true},
       {"rotation", "no force in a rotation", c->rotation.value, c->rotation_bound, &c->rotation,
-       !isnan(c->rotation.value)},
+       c->has_rotation},
       {"assembled", "assembled network - finite elements", c->assembled, c->assembled_bound, NULL,
        true},
       {"patch", "patch test, force on interior nodes", c->patch, c->patch_bound, NULL,

@@ -223,7 +223,7 @@ int cdem_output_descriptor(const cdem_output *output) {
 
 cdem_status cdem_output_write(cdem_output *output, const void *data, size_t bytes,
                               cdem_fault *fault) {
-  if (fwrite(data, 1, bytes, output->stream) == bytes)
+  if (bytes == 0 || fwrite(data, 1, bytes, output->stream) == bytes)
     return CDEM_OK;
   return cdem_output_fail(output, output->error != 0 ? output->error : EIO, fault);
 }

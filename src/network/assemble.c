@@ -193,7 +193,8 @@ double cdem_sparse_largest(const cdem_sparse *sparse) {
   double largest = 0.0;
   int64_t values = sparse->start[sparse->nodes] * sparse->dofs * sparse->dofs;
   for (int64_t i = 0; i < values; i++)
-    largest = fmax(largest, fabs(sparse->value[i]));
+    if (!(fabs(sparse->value[i]) <= largest)) /* NaN comes out */
+      largest = fabs(sparse->value[i]);
   return largest;
 }
 
@@ -260,7 +261,7 @@ cdem_pair_sink cdem_sparse_sink(cdem_sparse *sparse) {
   return (cdem_pair_sink){.context = sparse, .write = add_chunk};
 }
 
-static void add_element(const cdem_model *model, int32_t index, const double *k,
+static void add_element(const cdem_model *model, int32_t index, double factor, const double *k,
                         cdem_sparse *sparse) {
   const int32_t *node = cdem_mesh_cell(model->mesh, model->cell[index]);
   int nodes = nodes_of(model, index), dofs = sparse->dofs;
@@ -272,11 +273,11 @@ static void add_element(const cdem_model *model, int32_t index, const double *k,
       double *block = cdem_sparse_block(sparse, position[a], position[b]);
       for (int c = 0; c < dofs; c++)
         for (int d = 0; d < dofs; d++)
-          block[c * dofs + d] += k[(int64_t)(a * dofs + c) * nodes * dofs + b * dofs + d];
+          block[c * dofs + d] += factor * k[(int64_t)(a * dofs + c) * nodes * dofs + b * dofs + d];
     }
 }
 
-cdem_status cdem_sparse_add_elements(const cdem_model *model, cdem_sparse *sparse,
+cdem_status cdem_sparse_add_elements(const cdem_model *model, double factor, cdem_sparse *sparse,
                                      const cdem_progress *progress, cdem_fault *fault) {
   double *k;
   CDEM_NEW(k, (int64_t)CDEM_SHAPE_MAX_NODES * CDEM_SHAPE_MAX_NODES * CDEM_MAX_DOFS * CDEM_MAX_DOFS,
@@ -289,11 +290,20 @@ cdem_status cdem_sparse_add_elements(const cdem_model *model, cdem_sparse *spars
                                     &model->materials_of[model->material[i]], &model->section, xyz,
                                     k, fault);
     if (status == CDEM_OK)
-      add_element(model, i, k, sparse);
+      add_element(model, i, factor, k, sparse);
     if (status == CDEM_OK && i % 1024 == 0)
       status = cdem_progress_report(progress, "assembling the finite-element matrix", i,
                                     model->cells, fault);
   }
   free(k);
   return status;
+}
+
+void cdem_sparse_scale_rotations(const cdem_model *model, double length, cdem_sparse *sparse) {
+  if (model->formulation != CDEM_PLANE_COSSERAT)
+    return;
+  int64_t blocks = sparse->start[sparse->nodes];
+  for (int64_t k = 0; k < blocks; k++)
+    for (int e = 0; e < 9; e++)
+      sparse->value[9 * k + e] /= (e / 3 == 2 ? length : 1.0) * (e % 3 == 2 ? length : 1.0);
 }

@@ -47,8 +47,13 @@ double cdem_sparse_skew(const cdem_sparse *sparse);
 /* Sink that adds every pair it is fed to `sparse` (which must come from the pairs' model). */
 cdem_pair_sink cdem_sparse_sink(cdem_sparse *sparse);
 
-/* Adds the stiffness of every cell by the reference B^T D B: the finite-element matrix itself. */
-cdem_status cdem_sparse_add_elements(const cdem_model *model, cdem_sparse *sparse,
+/* Adds `factor` times the stiffness of every cell by the reference B^T D B: the finite-element
+ * matrix itself. */
+cdem_status cdem_sparse_add_elements(const cdem_model *model, double factor, cdem_sparse *sparse,
                                      const cdem_progress *progress, cdem_fault *fault);
+
+/* Divides rows and columns of Cosserat rotations by `length` (m), so that all entries are N/m;
+ * other matrices are left alone. 1/length undoes it. */
+void cdem_sparse_scale_rotations(const cdem_model *model, double length, cdem_sparse *sparse);
 
 #endif

@@ -22,6 +22,7 @@ typedef struct {
   int64_t robust;                                    /* pairs that took the robust path */
   cdem_worst rebuild;     /* |S - rows| / |S|                                     <= 1e-12 */
   cdem_worst translation; /* |K_ii - sum_j S_ij T_ij| / |K_ii|, K_ii by B^T D B    <= 1e-12 */
+  bool has_rotation;      /* false for Cosserat: `translation` holds the rotation there */
   cdem_worst rotation; /* |sum_j S_ij (theta x (x_j - x_i))| / sum |S_ij||x_j - x_i|, classical only
                           <= 1e-12 */
   double assembled;    /* largest |network - finite element| / largest |entry| <= 1e-12 */
@@ -31,9 +32,8 @@ typedef struct {
   int64_t patch_nodes;   /* interior nodes tested, 0: none is interior */
   int32_t components;    /* connected parts */
   int64_t rigid_modes;   /* expected zero modes: 3 or 6 a part */
-  int64_t zero_modes;    /* counted: |eigenvalue| <= 1e-11 of the norm; -1 not counted     ==
-                            rigid_modes */
-  int64_t negative_modes; /* counted: eigenvalue < -1e-11 of the norm; -1 not counted       == 0 */
+  int64_t zero_modes;    /* of the balanced matrix (spectrum.h); -1: not counted == rigid_modes */
+  int64_t negative_modes; /* likewise == 0 */
   double rotation_bound, rebuild_bound, translation_bound, assembled_bound, patch_bound;
 } cdem_certificate;
 

@@ -2,7 +2,9 @@
 
 #include "network/spectrum.h"
 
+#include <inttypes.h>
 #include <lapacke.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,7 +15,7 @@ typedef struct {
   const cdem_removal *removal;
   int removals;
   int64_t *hits; /* [removals] springs */
-  int64_t pairs;
+  int64_t pairs, springs;
   cdem_pair_sink assemble;
 } depletion_sink;
 
@@ -26,19 +28,29 @@ static bool matches_pair(const cdem_removal *r, const cdem_model *model, const c
          (r->class_ < 0 || r->class_ == pair->class_) && (r->form < 0 || r->form == pair->set.form);
 }
 
-/* Takes spring `number` (0: all) out of a set; returns how many springs went. */
-static int remove_springs(cdem_spring_set *set, int number) {
-  bool gone[CDEM_SPRING_ROWS + 1] = {false};
-  int removed = 0, kept = 0;
-  for (int r = 0; r < set->rows; r++)
-    if (number == 0 || set->row[r].spring == number) {
-      removed += !gone[set->row[r].spring];
-      gone[set->row[r].spring] = true;
-    }
+/* Marks spring `number` (0: all) of a set in gone [CDEM_SPRING_ROWS + 1]; returns how many it
+ * found. */
+static int mark_springs(const cdem_spring_set *set, int number, bool *gone) {
+  int found = 0, last = 0;
   for (int r = 0; r < set->rows; r++) {
-    if (gone[set->row[r].spring])
-      continue;
+    int spring = set->row[r].spring;
+    bool meant = number == 0 || spring == number;
+    found += spring > last && meant;
+    last = spring > last ? spring : last;
+    gone[spring] = gone[spring] || meant;
+  }
+  return found;
+}
+
+/* Takes the marked springs out, with the couplings of others to them; returns how many went. */
+static int remove_marked(cdem_spring_set *set, const bool *gone) {
+  int kept = 0, removed = 0;
+  for (int spring = 1; spring <= CDEM_SPRING_ROWS; spring++)
+    removed += gone[spring];
+  for (int r = 0; r < set->rows; r++) {
     cdem_spring_row row = set->row[r];
+    if (gone[row.spring])
+      continue;
     if (row.couples_to > 0 && gone[row.couples_to]) {
       row.couples_to = 0;
       row.coupling = 0.0;
@@ -54,11 +66,13 @@ static cdem_status write(void *context, const cdem_chunk *chunk, const cdem_buff
   depletion_sink *sink = context;
   for (int64_t p = 0; p < chunk->pairs; p++) {
     cdem_pair pair = chunk->pair[p];
-    int before = pair.set.rows;
+    bool gone[CDEM_SPRING_ROWS + 1] = {false};
     for (int i = 0; i < sink->removals; i++)
       if (matches_pair(&sink->removal[i], chunk->model, &pair))
-        sink->hits[i] += remove_springs(&pair.set, sink->removal[i].spring);
-    sink->pairs += pair.set.rows != before;
+        sink->hits[i] += mark_springs(&pair.set, sink->removal[i].spring, gone);
+    int removed = remove_marked(&pair.set, gone);
+    sink->springs += removed;
+    sink->pairs += removed > 0;
     const cdem_chunk one = {.model = chunk->model, .pairs = 1, .pair = &pair};
     CDEM_TRY(sink->assemble.write(sink->assemble.context, &one, buffer, fault));
   }
@@ -80,7 +94,7 @@ static void rigid_mode(const cdem_model *model, const cdem_sparse *sparse, const
     for (int a = 0; a < d; a++)
       u[(int64_t)n * d + a] = mode < model->dimension ? a == mode
                               : a < model->dimension  ? turned[a]
-                                                      : 1.0 / size;
+                                                      : model->length / size;
   }
 }
 
@@ -103,74 +117,92 @@ static cdem_status count_lost(const cdem_model *model, const cdem_sparse *sparse
   for (int32_t n = 0; n < sparse->nodes; n++)
     for (int c = 0; c < 3; c++)
       size = fmax(size, fabs(model->mesh->xyz[3 * (int64_t)sparse->node[n] + c] - centre[c]));
-  double gram[36], eigenvalue[6];
   for (int i = 0; i < modes; i++) {
     rigid_mode(model, sparse, centre, size, i, u);
     cdem_sparse_multiply(sparse, u, f + i * rows);
+    for (int64_t r = 0; r < rows; r++)
+      f[i * rows + r] /= norm;
   }
-  for (int i = 0; i < modes; i++)
-    for (int j = 0; j < modes; j++) {
-      gram[i * modes + j] = 0.0;
-      for (int64_t r = 0; r < rows; r++)
-        gram[i * modes + j] += f[i * rows + r] / norm * (f[j * rows + r] / norm);
-    }
-  LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'N', 'U', modes, gram, modes, eigenvalue);
+  double singular[6] = {0}, superb[6];
+  lapack_int info = LAPACKE_dgesvd(LAPACK_COL_MAJOR, 'N', 'N', (lapack_int)rows, modes, f,
+                                   (lapack_int)rows, singular, NULL, 1, NULL, 1, superb);
   d->rigid_modes = modes;
   d->rigid_lost = 0;
   for (int i = 0; i < modes; i++)
-    d->rigid_lost += sqrt(fmax(eigenvalue[i], 0.0)) > bound;
+    d->rigid_lost += singular[i] > bound;
   free(u);
   free(f);
-  return CDEM_OK;
+  return info == 0 ? CDEM_OK
+                   : cdem_fail(fault, CDEM_NUMERIC,
+                               "the singular values of the rigid modes did not converge");
 }
 
-static cdem_status measure(const cdem_model *model, const cdem_sparse *sparse, cdem_depletion *d,
-                           cdem_fault *fault) {
+/* The lowest eigenvalue, N/m: of the matrix as it is, for its value has a meaning. */
+static cdem_status find_lowest(const cdem_sparse *sparse, cdem_depletion *d, cdem_fault *fault) {
   cdem_spectrum *spectrum = NULL;
-  CDEM_TRY(cdem_spectrum_create(sparse, model->length, &spectrum, fault));
+  CDEM_TRY(cdem_spectrum_create(sparse, false, &spectrum, fault));
   d->norm = cdem_spectrum_norm(spectrum);
-  int64_t below = 0, above = 0;
-  cdem_status status = CDEM_OK;
-  if (d->norm > 0.0) {
-    status = cdem_spectrum_below(spectrum, -bound * d->norm, &below, fault);
-    if (status == CDEM_OK)
-      status = cdem_spectrum_below(spectrum, bound * d->norm, &above, fault);
-    if (status == CDEM_OK)
-      status = cdem_spectrum_lowest(spectrum, 1, &d->lowest, fault);
-  } else {
-    above = (int64_t)sparse->nodes * sparse->dofs;
-  }
+  cdem_status status =
+      d->norm > 0.0 ? cdem_spectrum_lowest(spectrum, 1, &d->lowest, fault) : CDEM_OK;
   cdem_spectrum_destroy(&spectrum);
+  return status;
+}
+
+static cdem_status measure(const cdem_model *model, const cdem_sparse *sparse,
+                           const cdem_progress *progress, cdem_depletion *d, cdem_fault *fault) {
+  cdem_spectrum *balanced = NULL;
+  CDEM_TRY(cdem_spectrum_create(sparse, true, &balanced, fault));
+  cdem_status status =
+      cdem_spectrum_count(balanced, progress, &d->negative_modes, &d->zero_modes, fault);
+  cdem_spectrum_destroy(&balanced);
   CDEM_TRY(status);
-  d->negative_modes = below;
-  d->zero_modes = above - below;
+  CDEM_TRY(cdem_progress_report(progress, "finding the lowest eigenvalue", 0, 1, fault));
+  CDEM_TRY(find_lowest(sparse, d, fault));
+  CDEM_TRY(cdem_progress_report(progress, "finding the lowest eigenvalue", 1, 1, fault));
   d->skew = cdem_sparse_skew(sparse);
   CDEM_TRY(count_lost(model, sparse, d->norm > 0.0 ? d->norm : 1.0, d, fault));
   d->safe = d->negative_modes == 0 && d->skew <= bound && d->rigid_lost == 0;
   return CDEM_OK;
 }
 
-cdem_status cdem_network_deplete(const cdem_model *model, const cdem_convert_options *options,
-                                 const cdem_removal *removal, int removals,
-                                 cdem_depletion *depletion, cdem_fault *fault) {
+/* The network without the removed springs, rotations scaled. */
+static cdem_status assemble_rest(const cdem_model *model, const cdem_convert_options *convert,
+                                 depletion_sink *sink, cdem_sparse *sparse, cdem_fault *fault) {
+  sink->assemble = cdem_sparse_sink(sparse);
+  const cdem_pair_sink pairs = {.context = sink, .write = write};
+  CDEM_TRY(cdem_network_convert(model, convert, &pairs, 1, fault));
+  for (int i = 0; i < sink->removals; i++)
+    CDEM_REQUIRE(sink->hits[i] > 0, fault, CDEM_INPUT,
+                 "'%s' matches no spring of this network; nothing can be taken out",
+                 sink->removal[i].text != NULL ? sink->removal[i].text : "a removal");
+  cdem_sparse_scale_rotations(model, model->length, sparse);
+  return CDEM_OK;
+}
+
+cdem_status cdem_network_deplete(const cdem_model *model, const cdem_convert_options *convert,
+                                 const cdem_depletion_options *options, cdem_depletion *depletion,
+                                 cdem_fault *fault) {
   cdem_sparse sparse = {0};
   cdem_depletion made = {0};
-  depletion_sink sink = {.removal = removal, .removals = removals};
-  CDEM_NEW(sink.hits, removals, fault);
-  cdem_status status = cdem_sparse_init(model, &sparse, fault);
-  if (status == CDEM_OK) {
-    sink.assemble = cdem_sparse_sink(&sparse);
-    const cdem_pair_sink pairs = {.context = &sink, .write = write};
-    status = cdem_network_convert(model, options, &pairs, 1, fault);
-  }
-  for (int i = 0; i < removals && status == CDEM_OK; i++) {
-    made.springs += sink.hits[i];
-    if (sink.hits[i] == 0)
-      status = cdem_fail(fault, CDEM_INPUT, "removal %d matches no spring of this network", i + 1);
-  }
-  made.pairs = sink.pairs;
+  depletion_sink sink = {.removal = options->removal, .removals = options->removals};
+  CDEM_TRY(cdem_sparse_init(model, &sparse, fault));
+  int64_t rows = (int64_t)sparse.nodes * sparse.dofs;
+  cdem_status status = CDEM_OK;
+  if (rows > options->mode_rows)
+    status = cdem_fail(fault, CDEM_INPUT,
+                       "depletion finds eigenvalues of a matrix of %" PRId64
+                       " rows, more than the %" PRId64
+                       " allowed; allow more, or take a part of the mesh by group",
+                       rows, options->mode_rows);
+  sink.hits = cdem_allocate(options->removals, sizeof *sink.hits, fault);
+  if (status == CDEM_OK && sink.hits == NULL)
+    status = CDEM_MEMORY;
   if (status == CDEM_OK)
-    status = measure(model, &sparse, &made, fault);
+    status = assemble_rest(model, convert, &sink, &sparse, fault);
+  made.pairs = sink.pairs;
+  made.springs = sink.springs;
+  if (status == CDEM_OK)
+    status = measure(model, &sparse, convert->progress, &made, fault);
   if (status == CDEM_OK)
     *depletion = made;
   cdem_sparse_release(&sparse);

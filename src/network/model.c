@@ -3,6 +3,7 @@
 #include "network/network.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,6 +40,8 @@ static cdem_status choose_cells(const cdem_model_options *options, uint8_t *chos
                "%s to convert: springs come from plane or solid elements%s",
                mesh->cells == 0 ? "the mesh has no cells" : "there are no plane or solid cells",
                options->groups > 0 ? "; choose another group" : "");
+  CDEM_REQUIRE(memchr(chosen, 1, (size_t)mesh->cells) != NULL, fault, CDEM_INPUT,
+               "group '%s' holds no elements; choose another group", options->group[0]);
   return CDEM_OK;
 }
 
@@ -63,7 +66,9 @@ static cdem_status assign_materials(const cdem_model_options *options, const uin
                                     cdem_fault *fault) {
   const cdem_mesh *mesh = options->mesh;
   for (int32_t i = 0; i < mesh->cells; i++)
-    material_of[i] = options->assignments > 0 ? options->default_material : 0;
+    material_of[i] = options->default_material >= 0 ? options->default_material
+                     : options->assignments > 0     ? -1
+                                                    : 0;
   for (int32_t i = 0; i < mesh->cells; i++)
     owner[i] = -1;
   for (int a = 0; a < options->assignments; a++) {
@@ -94,13 +99,14 @@ static cdem_status assign_materials(const cdem_model_options *options, const uin
   return CDEM_OK;
 }
 
-/* Classical or Cosserat: all materials in use must agree. */
-static cdem_status choose_formulation(const cdem_model_options *options, cdem_model *model,
-                                      cdem_fault *fault) {
+/* Classical or Cosserat: all materials in use must agree. used [materials]. */
+static cdem_status choose_formulation(const cdem_model_options *options, const bool *used,
+                                      cdem_model *model, cdem_fault *fault) {
   const cdem_material *cosserat = NULL, *classical = NULL;
   for (int i = 0; i < options->materials; i++)
-    *(cdem_material_is_cosserat(&options->material[i]) ? &cosserat : &classical) =
-        &options->material[i];
+    if (used[i])
+      *(cdem_material_is_cosserat(&options->material[i]) ? &cosserat : &classical) =
+          &options->material[i];
   CDEM_REQUIRE(cosserat == NULL || classical == NULL, fault, CDEM_INPUT,
                "material '%s' is a Cosserat material and '%s' is not; one network holds one kind",
                cosserat->name, classical->name);
@@ -160,22 +166,36 @@ static cdem_status collect_cells(const cdem_model_options *options, const uint8_
   return CDEM_OK;
 }
 
-static cdem_status build_laws(const cdem_model_options *options, cdem_model *model,
-                              cdem_fault *fault) {
+/* Materials that no chosen cell refers to are not looked at: a file may hold a whole library. */
+static cdem_status build_laws(const cdem_model_options *options, const bool *used,
+                              cdem_model *model, cdem_fault *fault) {
   model->materials = options->materials;
   CDEM_NEW(model->materials_of, options->materials, fault);
   CDEM_NEW(model->contraction, options->materials, fault);
-  double longest = 0.0;
   for (int i = 0; i < options->materials; i++) {
     model->materials_of[i] = options->material[i];
-    double length = cdem_material_length(&options->material[i]);
-    longest = length > longest ? length : longest;
-    CDEM_TRY(cdem_contraction_build(&options->material[i], model->formulation, &options->section,
-                                    &model->contraction[i], fault));
+    if (used[i])
+      CDEM_TRY(cdem_contraction_build(&options->material[i], model->formulation, &options->section,
+                                      &model->contraction[i], fault));
   }
-  bool cosserat = model->formulation == CDEM_PLANE_COSSERAT;
-  model->length = !cosserat ? 1.0 : options->length > 0.0 ? options->length : longest;
   return CDEM_OK;
+}
+
+/* Rotations are scaled by the size of the elements, the square root of their mean area: a length
+ * far from it would let either the displacements or the rotations of a block drown in the other's
+ * rounding. */
+static void choose_length(const cdem_model_options *options, cdem_model *model) {
+  model->length = options->length > 0.0 ? options->length : 1.0;
+  if (model->formulation != CDEM_PLANE_COSSERAT || options->length > 0.0)
+    return;
+  double area = 0.0;
+  for (int32_t i = 0; i < model->cells; i++) {
+    double xyz[CDEM_SHAPE_MAX_NODES][3];
+    cdem_model_coordinates(model, i, xyz);
+    area += cdem_element_volume(&model->kinds_of[model->kind[i]].tabulation, 1.0,
+                                (const double(*)[3])xyz);
+  }
+  model->length = sqrt(area / model->cells);
 }
 
 /* Plane meshes lie in z = const, to a billionth of their size. */
@@ -223,33 +243,51 @@ static cdem_status check_elements(const cdem_model *model, cdem_fault *fault) {
   return status;
 }
 
-static cdem_status build(const cdem_model_options *options, uint8_t *chosen, int *material_of,
-                         int *owner, cdem_model *model, cdem_fault *fault) {
-  CDEM_TRY(choose_cells(options, chosen, &model->dimension, fault));
+/* What building needs and the model does not keep. */
+typedef struct {
+  uint8_t *chosen;  /* [mesh cells] */
+  int *material_of; /* [mesh cells] */
+  int *owner;       /* [mesh cells] assignment that gave the material */
+  bool *used;       /* [materials] */
+} drafts;
+
+static cdem_status build(const cdem_model_options *options, const drafts *d, cdem_model *model,
+                         cdem_fault *fault) {
+  CDEM_REQUIRE(options->materials <= UINT16_MAX, fault, CDEM_INPUT,
+               "%d materials are too many; a network takes up to %d", options->materials,
+               UINT16_MAX);
+  CDEM_TRY(choose_cells(options, d->chosen, &model->dimension, fault));
   CDEM_REQUIRE(model->dimension == 3 || options->section.thickness > 0.0, fault, CDEM_INPUT,
                "thickness = %g m is out of range: a plane body needs a thickness above 0",
                options->section.thickness);
-  CDEM_TRY(assign_materials(options, chosen, model->dimension, material_of, owner, fault));
-  CDEM_TRY(choose_formulation(options, model, fault));
-  CDEM_TRY(collect_cells(options, chosen, material_of, model, fault));
-  CDEM_TRY(build_laws(options, model, fault));
+  CDEM_TRY(assign_materials(options, d->chosen, model->dimension, d->material_of, d->owner, fault));
+  for (int32_t i = 0; i < options->mesh->cells; i++)
+    if (d->chosen[i])
+      d->used[d->material_of[i]] = true;
+  CDEM_TRY(choose_formulation(options, d->used, model, fault));
+  CDEM_TRY(collect_cells(options, d->chosen, d->material_of, model, fault));
+  CDEM_TRY(build_laws(options, d->used, model, fault));
   CDEM_TRY(check_plane(model, fault));
-  return check_elements(model, fault);
+  CDEM_TRY(check_elements(model, fault));
+  choose_length(options, model);
+  return CDEM_OK;
 }
 
 cdem_status cdem_model_init(const cdem_model_options *options, cdem_model *model,
                             cdem_fault *fault) {
   const cdem_mesh *mesh = options->mesh;
   cdem_model made = {.mesh = mesh, .section = options->section};
-  uint8_t *chosen = cdem_allocate(mesh->cells, sizeof *chosen, fault);
-  int *material_of = cdem_allocate(mesh->cells, sizeof *material_of, fault);
-  int *owner = cdem_allocate(mesh->cells, sizeof *owner, fault);
+  drafts d = {.chosen = cdem_allocate(mesh->cells, sizeof *d.chosen, fault),
+              .material_of = cdem_allocate(mesh->cells, sizeof *d.material_of, fault),
+              .owner = cdem_allocate(mesh->cells, sizeof *d.owner, fault),
+              .used = cdem_allocate(options->materials, sizeof *d.used, fault)};
   cdem_status status = CDEM_MEMORY;
-  if (chosen != NULL && material_of != NULL && owner != NULL)
-    status = build(options, chosen, material_of, owner, &made, fault);
-  free(chosen);
-  free(material_of);
-  free(owner);
+  if (d.chosen != NULL && d.material_of != NULL && d.owner != NULL && d.used != NULL)
+    status = build(options, &d, &made, fault);
+  free(d.chosen);
+  free(d.material_of);
+  free(d.owner);
+  free(d.used);
   if (status != CDEM_OK)
     cdem_model_release(&made);
   *model = made;

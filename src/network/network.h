@@ -32,7 +32,7 @@ typedef struct {
   int default_material; /* for cells of no assigned group; -1: such a cell is an error */
   cdem_section section;
   int degree;    /* quadrature; 0: each element's full rule */
-  double length; /* m, scales omega; 0: the largest characteristic length of the materials */
+  double length; /* m, scales omega; 0: square root of the elements' mean area */
 } cdem_model_options;
 
 /* Cells of one element kind. */

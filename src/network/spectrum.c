@@ -3,6 +3,7 @@
 #include <arpack.h>
 #include <cholmod.h>
 #include <lapacke.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,46 +16,59 @@ struct cdem_spectrum {
   double norm;
 };
 
-/* Entry (row, column) of the symmetric part of block k in block row n, rotations scaled. */
+/* Entry (a, b) of the symmetric part of block k; mirror: the block across the diagonal. */
 static double symmetric_entry(const cdem_sparse *sparse, int64_t k, const double *mirror, int a,
-                              int b, double length) {
+                              int b) {
   int dofs = sparse->dofs;
-  double value = (sparse->value[k * dofs * dofs + a * dofs + b] + mirror[b * dofs + a]) / 2.0;
-  return value / ((a == 2 ? length : 1.0) * (b == 2 ? length : 1.0));
+  return (sparse->value[k * dofs * dofs + a * dofs + b] + mirror[b * dofs + a]) / 2.0;
 }
 
-/* Columns of the lower triangle; by symmetry column j is row j from the diagonal on. */
-static void fill_matrix(const cdem_sparse *sparse, double length, cholmod_sparse *matrix,
-                        double *row_sum) {
+/* weight [rows]: 1, or 1/sqrt |diagonal| (1 where that is zero). */
+static void choose_weights(const cdem_sparse *sparse, bool balanced, double *weight) {
+  int dofs = sparse->dofs;
+  for (int32_t n = 0; n < sparse->nodes; n++) {
+    const double *block = cdem_sparse_block(sparse, n, n);
+    for (int a = 0; a < dofs; a++) {
+      double diagonal = balanced ? fabs(block[a * dofs + a]) : 1.0;
+      weight[n * dofs + a] = diagonal > 0.0 ? 1.0 / sqrt(diagonal) : 1.0;
+    }
+  }
+}
+
+/* Columns of the lower triangle; by symmetry column j is row j from the diagonal on. Returns the
+ * norm. */
+static double fill_matrix(const cdem_sparse *sparse, const double *weight, cholmod_sparse *matrix) {
   int dofs = sparse->dofs;
   int *start = matrix->p, *row = matrix->i, used = 0;
-  double *value = matrix->x;
+  double *value = matrix->x, norm = 0.0;
   for (int32_t n = 0; n < sparse->nodes; n++)
     for (int a = 0; a < dofs; a++) {
       int column = n * dofs + a;
+      double sum = 0.0;
       start[column] = used;
-      row_sum[column] = 0.0;
       for (int64_t k = sparse->start[n]; k < sparse->start[n + 1]; k++) {
         const double *mirror = cdem_sparse_block(sparse, sparse->column[k], n);
         for (int b = 0; b < dofs; b++) {
-          double entry = symmetric_entry(sparse, k, mirror, a, b, length);
           int other = sparse->column[k] * dofs + b;
-          row_sum[column] += fabs(entry);
+          double entry = symmetric_entry(sparse, k, mirror, a, b) * weight[column] * weight[other];
+          sum += fabs(entry);
           if (other < column)
             continue;
           row[used] = other;
           value[used++] = entry;
         }
       }
+      norm = fmax(norm, sum);
     }
   start[sparse->nodes * dofs] = used;
+  return norm;
 }
 
 static cdem_status cholmod_failure(cdem_fault *fault) {
   return cdem_fail(fault, CDEM_MEMORY, "out of memory in the sparse factorisation");
 }
 
-cdem_status cdem_spectrum_create(const cdem_sparse *sparse, double length, cdem_spectrum **spectrum,
+cdem_status cdem_spectrum_create(const cdem_sparse *sparse, bool balanced, cdem_spectrum **spectrum,
                                  cdem_fault *fault) {
   *spectrum = NULL;
   int64_t rows = (int64_t)sparse->nodes * sparse->dofs;
@@ -68,21 +82,20 @@ cdem_status cdem_spectrum_create(const cdem_sparse *sparse, double length, cdem_
   made->common.print = 0;
   made->common.supernodal = CHOLMOD_SIMPLICIAL;
   made->common.final_ll = 0;
-  double *row_sum = cdem_allocate(rows, sizeof *row_sum, fault);
+  double *weight = cdem_allocate(rows, sizeof *weight, fault);
   made->matrix = cholmod_allocate_sparse((size_t)rows, (size_t)rows, (size_t)entries, 1, 1, -1,
                                          CHOLMOD_REAL, &made->common);
   cdem_status status = CDEM_OK;
-  if (row_sum == NULL || made->matrix == NULL) {
+  if (weight == NULL || made->matrix == NULL) {
     status = cholmod_failure(fault);
   } else {
-    fill_matrix(sparse, length, made->matrix, row_sum);
-    for (int64_t i = 0; i < rows; i++)
-      made->norm = fmax(made->norm, row_sum[i]);
+    choose_weights(sparse, balanced, weight);
+    made->norm = fill_matrix(sparse, weight, made->matrix);
     made->symbolic = cholmod_analyze(made->matrix, &made->common);
     if (made->symbolic == NULL)
       status = cholmod_failure(fault);
   }
-  free(row_sum);
+  free(weight);
   if (status != CDEM_OK)
     cdem_spectrum_destroy(&made);
   *spectrum = made;
@@ -104,6 +117,25 @@ double cdem_spectrum_norm(const cdem_spectrum *spectrum) {
   return spectrum->norm;
 }
 
+double cdem_spectrum_width(const cdem_spectrum *spectrum) {
+  return 1e-14 * sqrt((double)spectrum->matrix->nrow) * spectrum->norm;
+}
+
+cdem_status cdem_spectrum_count(cdem_spectrum *spectrum, const cdem_progress *progress,
+                                int64_t *negative, int64_t *zero, cdem_fault *fault) {
+  double width = cdem_spectrum_width(spectrum);
+  int64_t below = 0, above = (int64_t)spectrum->matrix->nrow;
+  if (spectrum->norm > 0.0) { /* else all are zero */
+    CDEM_TRY(cdem_progress_report(progress, "counting modes", 0, 2, fault));
+    CDEM_TRY(cdem_spectrum_below(spectrum, -width, &below, fault));
+    CDEM_TRY(cdem_progress_report(progress, "counting modes", 1, 2, fault));
+    CDEM_TRY(cdem_spectrum_below(spectrum, width, &above, fault));
+  }
+  *negative = below;
+  *zero = above - below;
+  return CDEM_OK;
+}
+
 /* K - shift I = L D L^T in a new factor. */
 static cdem_status factorise(cdem_spectrum *spectrum, double shift, cholmod_factor **factor,
                              cdem_fault *fault) {
@@ -116,9 +148,10 @@ static cdem_status factorise(cdem_spectrum *spectrum, double shift, cholmod_fact
   if (outcome >= 0 && (*factor)->minor == (*factor)->n && (*factor)->xtype == CHOLMOD_REAL)
     return CDEM_OK;
   cholmod_free_factor(factor, &spectrum->common);
-  if (outcome == CHOLMOD_OUT_OF_MEMORY)
+  if (outcome == CHOLMOD_OUT_OF_MEMORY || outcome == CHOLMOD_TOO_LARGE)
     return cholmod_failure(fault);
-  return cdem_fail(fault, CDEM_NUMERIC, "the factorisation of K - %g I met a zero pivot", shift);
+  return cdem_fail(fault, CDEM_NUMERIC,
+                   "the factorisation of the matrix shifted by %g N/m met a zero pivot", shift);
 }
 
 cdem_status cdem_spectrum_below(cdem_spectrum *spectrum, double shift, int64_t *count,

@@ -20,12 +20,13 @@ static void number_option(rebuild_body *body, int slot, const char *name, double
 
 /* What stands in a material file; `indent` before every key. */
 
+/* Axis 1 is not of unit length and axis 2 leans towards it: the program makes them orthonormal. */
 static void write_axes(FILE *file, const char *indent, uint64_t *seed, double moduli[6][6]) {
   double axis[3][3];
   rebuild_random_axes(seed, 3, axis);
   for (int k = 0; k < 2; k++)
-    fprintf(file, "%saxis%d: [%.17g, %.17g, %.17g]\n", indent, k + 1, axis[k][0], axis[k][1],
-            axis[k][2]);
+    fprintf(file, "%saxis%d: [%.17g, %.17g, %.17g]\n", indent, k + 1, axis[k][0] + axis[0][0] / 2,
+            axis[k][1] + axis[0][1] / 2, axis[k][2] + axis[0][2] / 2);
   reference_turn(moduli, axis);
 }
 
@@ -98,6 +99,22 @@ static void write_by_group(FILE *file, uint64_t *seed, rebuild_body *body) {
   fputs("groups: {rock: bedded rock, soft layer: clay}\ndefault: crystal\n", file);
 }
 
+static void write_ratios(const rebuild_case *c, FILE *file, rebuild_body *body) {
+  static const char *const name[] = {"", "a", "b", "c", "d", "e", "f", "g", "h", "i"};
+  rebuild_mesh *mesh = &body->mesh;
+  for (int k = 0; k < mesh->cells; k++)
+    mesh->groups = mesh->cell[k].group > mesh->groups ? mesh->cell[k].group : mesh->groups;
+  fputs("materials:\n", file);
+  for (int g = 1; g <= mesh->groups; g++) {
+    mesh->group[g] = name[g];
+    fprintf(file, "  m%s: {young: %.17g, poisson: %.17g}\n", name[g], young, c->ratio[g - 1]);
+    reference_isotropic(young, c->ratio[g - 1], body->material[g].moduli);
+  }
+  fputs("groups:\n", file);
+  for (int g = 1; g <= mesh->groups; g++)
+    fprintf(file, "  %s: m%s\n", name[g], name[g]);
+}
+
 static void material_options(const rebuild_case *c, rebuild_body *body) {
   if (c->material != MATERIAL_ISOTROPIC && c->material != MATERIAL_COSSERAT) {
     option(body, "--material", body->material_file);
@@ -107,6 +124,8 @@ static void material_options(const rebuild_case *c, rebuild_body *body) {
       write_orthotropic(file, "", &body->mesh.seed, body->material[0].moduli);
     else if (c->material == MATERIAL_ANISOTROPIC)
       write_anisotropic(file, "", &body->mesh.seed, body->material[0].moduli);
+    else if (c->material == MATERIAL_RATIOS)
+      write_ratios(c, file, body);
     else if (c->material == MATERIAL_BY_GROUP)
       write_by_group(file, &body->mesh.seed, body);
     else
@@ -126,21 +145,25 @@ static void material_options(const rebuild_case *c, rebuild_body *body) {
   }
 }
 
-/* With groups: the first three boxes are in 1, 2, 1, the others in none. */
+/* Three materials: the first three boxes are in 1, 2, 1, the others in no group. */
+static int group_of_box(const rebuild_case *c, int box) {
+  static const int group[3] = {1, 2, 1};
+  if (c->material == MATERIAL_RATIOS)
+    return box + 1;
+  return c->material == MATERIAL_BY_GROUP && box < 3 ? group[box] : 0;
+}
+
 static void make_mesh(const rebuild_case *c, rebuild_mesh *mesh) {
   static const double square[3] = {1, 1, 1}, stretched[3] = {1.3, 0.8, 1.1};
-  static const int group[3] = {1, 2, 1};
   char kinds[128], *rest = NULL;
   mesh->seed = 1;
   for (const char *at = c->name; *at != '\0'; at++)
     mesh->seed = mesh->seed * 131 + (unsigned char)*at;
   snprintf(kinds, sizeof kinds, "%s", c->kinds);
   int box = 0;
-  for (char *kind = strtok_r(kinds, " ", &rest); kind != NULL; kind = strtok_r(NULL, " ", &rest)) {
-    bool in_group = c->material == MATERIAL_BY_GROUP && box < 3;
-    rebuild_mesh_add_box(mesh, kind, box, in_group ? group[box] : 0);
-    box++;
-  }
+  for (char *kind = strtok_r(kinds, " ", &rest); kind != NULL;
+       kind = strtok_r(NULL, " ", &rest), box++)
+    rebuild_mesh_add_box(mesh, kind, box, group_of_box(c, box));
   rebuild_mesh_distort(mesh, c->amount, c->amount > 0 ? stretched : square);
 }
 
@@ -160,6 +183,8 @@ void rebuild_body_make(const rebuild_case *c, const char *folder, rebuild_body *
     body->material[g].plane_stress = c->plane_stress;
     body->material[g].thickness = thickness;
   }
+  if (c->length > 0)
+    number_option(body, 6, "--length", c->length);
   if (c->frame != NULL)
     option(body, "--frame", c->frame);
   if (c->group != NULL)

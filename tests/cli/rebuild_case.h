@@ -11,6 +11,7 @@ typedef enum rebuild_material {
   MATERIAL_COSSERAT,    /* options */
   MATERIAL_COSSERAT_FILE,
   MATERIAL_COSSERAT_CUBIC,
+  MATERIAL_RATIOS,  /* a file, isotropic, each box its own Poisson's ratio */
   MATERIAL_BY_GROUP /* a file with three materials */
 } rebuild_material;
 
@@ -20,6 +21,8 @@ typedef struct rebuild_case {
   rebuild_material material;
   bool plane_stress;
   double poisson, couple_factor;
+  double length;       /* value of --length; 0: not given */
+  const double *ratio; /* Poisson's ratio of each box */
   double amount;       /* of distortion; 0: squares or cubes */
   const char *frame;   /* value of --frame; NULL: not given */
   const char *group;   /* value of --group; NULL: all cells */

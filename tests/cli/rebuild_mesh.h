@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-enum { REBUILD_MAX_NODES = 256, REBUILD_MAX_CELLS = 32, REBUILD_MAX_GROUPS = 4 };
+enum { REBUILD_MAX_NODES = 256, REBUILD_MAX_CELLS = 32, REBUILD_MAX_GROUPS = 9 };
 
 typedef struct rebuild_cell {
   const reference_element *element;

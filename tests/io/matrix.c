@@ -40,7 +40,7 @@ static void network_init(network *n, cdem_shape shape, cdem_material material) {
   assert_true(n->rows <= MOST);
   cdem_sparse sparse = {0};
   check_ok(cdem_sparse_init(&n->model, &sparse, &fault));
-  check_ok(cdem_sparse_add_elements(&n->model, &sparse, NULL, &fault));
+  check_ok(cdem_sparse_add_elements(&n->model, 1.0, &sparse, NULL, &fault));
   int dofs = n->model.dofs;
   for (int p = 0; p < sparse.nodes; p++)
     for (int64_t k = sparse.start[p]; k < sparse.start[p + 1]; k++)

@@ -118,7 +118,7 @@ static void sparse_spectrum_is_the_dense_one(void **state) {
   cdem_material material = make_material(element);
   make_model(&mesh, &material, &model);
   check_ok(cdem_sparse_init(&model, &sparse, &fault));
-  check_ok(cdem_sparse_add_elements(&model, &sparse, NULL, &fault));
+  check_ok(cdem_sparse_add_elements(&model, 1.0, &sparse, NULL, &fault));
   int rows = sparse.nodes * 3;
   double *dense = cdem_allocate((int64_t)rows * rows, sizeof *dense, NULL);
   double *truth = cdem_allocate(rows, sizeof *truth, NULL), lowest[9];
@@ -128,7 +128,7 @@ static void sparse_spectrum_is_the_dense_one(void **state) {
         dense[(int64_t)(3 * n + e / 3) * rows + 3 * sparse.column[k] + e % 3] =
             sparse.value[9 * k + e];
   assert_int_equal(LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'N', 'U', rows, dense, rows, truth), 0);
-  check_ok(cdem_spectrum_create(&sparse, 1.0, &spectrum, &fault));
+  check_ok(cdem_spectrum_create(&sparse, false, &spectrum, &fault));
   check_ok(cdem_spectrum_lowest(spectrum, 9, lowest, &fault));
   for (int i = 0; i < 9; i++)
     check_near(lowest[i], truth[i], 1e-9, 1e-13 * truth[rows - 1]); /* backward error of both */

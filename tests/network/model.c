@@ -51,6 +51,11 @@ static void groups_choose_cells(void **state) {
               "no group 'rihgt'; it has: left, right");
   options.group = bottom;
   check_fails(cdem_model_init(&options, &model, &fault), CDEM_INPUT, "no plane or solid cells");
+  const char *nothing[] = {"nothing"};
+  check_ok(cdem_mesh_add_group(&mesh, "nothing", 2, 0, NULL, &fault));
+  options.group = nothing;
+  check_fails(cdem_model_init(&options, &model, &fault), CDEM_INPUT,
+              "group 'nothing' holds no elements");
   options.groups = 2;
   options.group = mixed;
   check_fails(cdem_model_init(&options, &model, &fault), CDEM_INPUT,
@@ -97,10 +102,19 @@ static void materials_by_group(void **state) {
   options.assigned_group = gone;
   check_fails(cdem_model_init(&options, &model, &fault), CDEM_INPUT,
               "group 'middle', which the mesh does not have");
-  two[1].parameter[1] = 0.5;
+  /* Without assignments the default is the material of all; what no cell uses is not looked at. */
   options.assignments = 0;
+  check_ok(cdem_model_init(&options, &model, &fault));
+  assert_int_equal(model.material[0], 1);
+  cdem_model_release(&model);
+  two[1].parameter[1] = 0.5;
   check_fails(cdem_model_init(&options, &model, &fault), CDEM_INPUT, "material 'hard'");
+  options.default_material = 0;
+  check_ok(cdem_model_init(&options, &model, &fault));
+  cdem_model_release(&model);
   two[1] = make_material(cdem_element_find("quad4-cosserat"));
+  options.assignments = 2;
+  options.assigned_group = both;
   check_fails(cdem_model_init(&options, &model, &fault), CDEM_INPUT, "one network holds one kind");
   cdem_mesh_release(&mesh);
 }
