@@ -40,7 +40,11 @@ static const char files[] =
     "                                       shale: {model: orthotropic, e1: 20 GPa, ...}\n"
     "                                     groups: {rock: granite, layer: shale}\n"
     "                                     default: granite\n"
-    "  `cdem list materials` shows the models and their keys.\n";
+    "  `cdem list materials` shows the models and their keys. Orthotropic and anisotropic "
+    "materials may be\n"
+    "  turned: axis1: [x, y, z] and axis2: [x, y, z] are the material axes 1 and 2 in the mesh "
+    "(axis 2 is made\n"
+    "  perpendicular to axis 1).\n";
 
 static void print_errors(void) {
   printf("exit codes\n");
@@ -58,7 +62,7 @@ static void print_overview(void) {
 
 int cmd_help(int argc, char **argv) {
   const char *topic = argc > 1 ? argv[1] : NULL;
-  if (topic == NULL || strcmp(topic, "--help") == 0) {
+  if (topic == NULL || strcmp(topic, "--help") == 0 || strcmp(topic, "help") == 0) {
     print_overview();
     return 0;
   }
@@ -70,7 +74,7 @@ int cmd_help(int argc, char **argv) {
     print_errors();
   else {
     for (const command *c = commands; c->name != NULL; c++)
-      if (strcmp(c->name, topic) == 0 && strcmp(topic, "help") != 0) {
+      if (strcmp(c->name, topic) == 0) {
         char called[64], option[] = "--help";
         snprintf(called, sizeof called, "cdem %s", c->name);
         char *arguments[] = {called, option, NULL};

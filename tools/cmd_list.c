@@ -28,6 +28,9 @@ static void list_materials(void) {
       printf("\n");
     }
   }
+  printf("  orthotropic and anisotropic, optional: axis1, axis2 (three numbers each), the material "
+         "axes 1 and 2 in "
+         "the mesh\n");
 }
 
 static void list_formats(void) {

@@ -22,7 +22,9 @@ awk '
   }
   END { if (files == 0) { print "no includes found"; bad = 1 } exit bad }
 ' cmake/rooms.txt $(find src tools -name '*.[ch]' -o -name '*.def' | sort) || exit 1
-# Only io opens files, only tools prints or exits.
-grep -nE '\b(printf|puts|exit|abort|getenv)[[:space:]]*\(' -r src --include='*.[ch]' | grep -vE 'snprintf|vsnprintf|^src/io/' && exit 1
-grep -nE '\b(fopen|open|H5Fcreate)[[:space:]]*\(' -r src --include='*.[ch]' | grep -vE '^src/io/|->open|\(\*open\)' && exit 1
+# Only io opens files, only tools print, exit or read the environment.
+grep -nE '\b([fvd]*printf|f?put[sc]|putchar|perror|exit|abort|getenv|stdout|stderr)\b[[:space:]]*[(,;)]' -r src --include='*.[ch]' |
+  grep -vE '^src/io/|^[^:]*:[0-9]+: \*|s(n)?printf|format\(printf' && exit 1
+grep -nE '\b(fopen|fdopen|freopen|gzopen|open|H5F(create|open))[[:space:]]*\(' -r src --include='*.[ch]' |
+  grep -vE '^src/io/|->open|\(\*open\)' && exit 1
 echo "rooms hold"
