@@ -310,9 +310,8 @@ cdem_status cdem_network_convert(const cdem_model *model, const cdem_convert_opt
   queue q = {.lock = PTHREAD_MUTEX_INITIALIZER,
              .turned = PTHREAD_COND_INITIALIZER,
              .chunks = ((int64_t)model->cells + cells - 1) / cells};
-  int threads = options->threads > 0 ? options->threads : omp_get_max_threads();
   int64_t ready_threads = 0;
-#pragma omp parallel num_threads(threads)
+#pragma omp parallel num_threads(options->threads > 0 ? options->threads : omp_get_max_threads())
   convert_in_team(&task, &q, &ready_threads);
   if (ready_threads == 0)
     return cdem_fail(fault, CDEM_MEMORY, "out of memory: no room for a chunk of %d elements",
