@@ -394,15 +394,25 @@ static cdem_status put_settings(h5_writer *h5, cdem_fault *fault) {
   return good ? put_materials(h5, fault) : fail(h5, fault);
 }
 
+/* Without the time of day, so that the same input gives the same bytes. */
+static hid_t dataset_properties(void) {
+  hid_t create = H5Pcreate(H5P_DATASET_CREATE);
+  if (create >= 0)
+    H5Pset_obj_track_times(create, 0);
+  return create;
+}
+
 static bool put_array(hid_t group, const char *name, hid_t type, int rank, const hsize_t *size,
                       const void *data) {
-  hid_t space = H5Screate_simple(rank, size, NULL);
-  hid_t set = space >= 0
-                  ? H5Dcreate2(group, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)
+  hid_t space = H5Screate_simple(rank, size, NULL), create = dataset_properties();
+  hid_t set = space >= 0 && create >= 0
+                  ? H5Dcreate2(group, name, type, space, H5P_DEFAULT, create, H5P_DEFAULT)
                   : (hid_t)-1;
   bool good = set >= 0 && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
   if (set >= 0)
     H5Dclose(set);
+  if (create >= 0)
+    H5Pclose(create);
   if (space >= 0)
     H5Sclose(space);
   return good;
@@ -444,7 +454,7 @@ static bool create_dataset(h5_writer *h5, hid_t group, int c) {
   const char *name = cdem_model_is_cosserat(h5->model) && columns[c].cosserat != NULL
                          ? columns[c].cosserat
                          : columns[c].name;
-  hid_t space = H5Screate_simple(rank, size, most), create = H5Pcreate(H5P_DATASET_CREATE);
+  hid_t space = H5Screate_simple(rank, size, most), create = dataset_properties();
   hid_t access = H5Pcreate(H5P_DATASET_ACCESS);
   /* Stages are chunks already: HDF5's own cache would only hold them once more. */
   bool good = space >= 0 && create >= 0 && access >= 0 && H5Pset_chunk(create, rank, chunk) >= 0 &&
