@@ -47,8 +47,11 @@ static cdem_status load(const springs_settings *s, things *t, cdem_fault *fault)
   }
   const cdem_warnings warnings = command_warnings();
   command_say("reading %s", s->mesh);
-  CDEM_TRY(cdem_read_mesh(s->mesh, &t->mesh, &warnings, fault));
-  cdem_status status = cdem_model_init(&options, &t->model, fault);
+  command_guard(s->mesh);
+  cdem_status status = cdem_read_mesh(s->mesh, &t->mesh, &warnings, fault);
+  command_guard(NULL);
+  CDEM_TRY(status);
+  status = cdem_model_init(&options, &t->model, fault);
   if (status != CDEM_OK) {
     cdem_fault_prefix(fault, "mesh '%s'", s->mesh);
     return status;

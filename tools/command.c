@@ -195,6 +195,42 @@ void command_progress_end(void) {
   bar.shown = false;
 }
 
+/* ---- guard ---- */
+
+static const char *guarded; /* the file being read */
+
+/* Only what is safe in a signal handler. */
+static void say_guarded(const char *what) {
+  const char *const part[] = {"error: cannot read '", guarded, "': ", what, "\n"};
+  for (int i = 0; i < 5; i++)
+    if (write(STDERR_FILENO, part[i], strlen(part[i])) < 0)
+      break;
+  _exit(cdem_status_exit_code(CDEM_INPUT));
+}
+
+static void on_crash(int signal_number) {
+  (void)signal_number;
+  say_guarded(
+      "gmsh crashed on it; repair the geometry, or mesh it with gmsh and give the .msh file");
+}
+
+static void on_exit_of_others(void) {
+  if (guarded != NULL)
+    say_guarded("gmsh ended the program on it; take `Exit` out of the file");
+}
+
+void command_guard(const char *path) {
+  static bool registered = false;
+  if (!registered)
+    registered = atexit(on_exit_of_others) == 0;
+  guarded = path;
+  const int crash[] = {SIGSEGV, SIGABRT, SIGFPE, SIGBUS};
+  struct sigaction action = {.sa_flags = (int)SA_RESETHAND};
+  action.sa_handler = path != NULL ? on_crash : SIG_DFL;
+  for (int i = 0; i < 4; i++)
+    sigaction(crash[i], &action, NULL);
+}
+
 int command_finish(int exit_code) {
   command_progress_end();
   if ((fflush(stdout) != 0 || ferror(stdout)) && exit_code == 0) {

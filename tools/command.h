@@ -46,6 +46,10 @@ const cdem_progress *command_progress(void);
 void command_catch_interrupt(void);
 void command_progress_end(void); /* ends the bar's line */
 
+/* While a library of others reads a file: if it ends or crashes the program, that becomes an error
+ * naming the file and exit code 3, not silence. NULL: over. */
+void command_guard(const char *path);
+
 /* Option values; wrong ones end the program through command_usage (not a number) or as bad input
  * (exit 3: wrong unit). `option` is the name for the message: "-E". */
 double command_quantity(const char *option, const char *text, cdem_dimension dimension);

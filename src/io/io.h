@@ -24,9 +24,9 @@ typedef struct {
   void (*warn)(void *context, const char *message);
 } cdem_warnings;
 
-/* Reads .msh (2.2 and 4.1, text and binary), .geo .step .stp (gmsh meshes them in their highest
- * dimension) and .inp (Abaqus, CalculiX), by file ending. The mesh has passed cdem_mesh_check.
- * CDEM_FILE: cannot be opened. CDEM_INPUT: cannot be understood. */
+/* Reads .msh (2.2 and 4.1, text and binary; 4.0 through gmsh), .geo .step .stp (gmsh meshes them in
+ * their highest dimension) and .inp (Abaqus, CalculiX), by file ending. The mesh has passed
+ * cdem_mesh_check. CDEM_FILE: cannot be opened. CDEM_INPUT: cannot be understood. */
 cdem_status cdem_read_mesh(const char *path, cdem_mesh *mesh, const cdem_warnings *warnings,
                            cdem_fault *fault);
 

@@ -27,6 +27,8 @@ static const int8_t hex20_order[] = {0,  1, 2,  3,  4,  5,  6,  7,  8,  11,
                                      16, 9, 17, 10, 18, 19, 12, 15, 13, 14};
 
 static const inp_type types[] = {
+    {"T3D2", CDEM_SHAPE_LINE2, false, NULL},
+    {"T3D3", CDEM_SHAPE_LINE3, false, NULL},
     {"CPS3", CDEM_SHAPE_TRI3, false, NULL},
     {"CPE3", CDEM_SHAPE_TRI3, false, NULL},
     {"CPS4", CDEM_SHAPE_QUAD4, false, NULL},
@@ -61,7 +63,7 @@ typedef struct {
   int64_t next_line;
   const char *from, *to; /* the line in hand, without blanks around it */
   int parts;
-  bool warned[TYPES];
+  bool warned[TYPES], plane_stress;
 } inp_reader;
 
 static void trim(const char **from, const char **to) {
@@ -259,6 +261,7 @@ static cdem_status find_type(inp_reader *reader, const inp_keyword *keyword, con
                         reader->text->line, types[i].name, (int)strlen(types[i].name) - 1,
                         types[i].name);
     reader->warned[i] |= types[i].reduced;
+    reader->plane_stress |= strncmp(types[i].name, "CPS", 3) == 0;
     return CDEM_OK;
   }
   if (strcasecmp(keyword->type, "C3D8I") == 0)
@@ -329,13 +332,6 @@ static cdem_status read_element(inp_reader *reader, const inp_type *type, int64_
   cdem_mesh_builder *builder = reader->builder;
   CDEM_TRY(cdem_text_prefix(reader->text, fault,
                             cdem_builder_add_cell(builder, type->shape, tag, node, fault)));
-  int dimension = cdem_shape_get(type->shape)->dimension;
-  int first = cdem_shape_get((cdem_shape)builder->mesh.cell_shape[0])->dimension;
-  if (dimension != first)
-    return cdem_text_fail(reader->text, fault,
-                          "element %" PRId64 " has dimension %d, but those before it have %d; "
-                          "keep elements of one dimension in the deck",
-                          tag, dimension, first);
   return group >= 0 ? cdem_builder_add_members(builder, group, builder->mesh.cells - 1, 1, fault)
                     : CDEM_OK;
 }
@@ -410,8 +406,11 @@ static cdem_status generate_set_line(inp_reader *reader, const char *set, int64_
   if (count < 2 || value[2] < 1 || value[1] < value[0])
     return cdem_text_fail(reader->text, fault,
                           "GENERATE in set '%s' needs first, last and a positive step", set);
-  for (int64_t tag = value[0]; tag <= value[1]; tag += value[2])
+  for (int64_t tag = value[0];; tag += value[2]) {
     CDEM_TRY(add_element(reader, set, group, tag, fault));
+    if (tag > value[1] - value[2]) /* before the sum can overflow */
+      break;
+  }
   return CDEM_OK;
 }
 
@@ -494,5 +493,9 @@ cdem_status cdem_read_inp(cdem_text *text, cdem_mesh_builder *builder, cdem_faul
     if (pass == ELEMENTS)
       CDEM_REQUIRE(builder->mesh.cells > 0, fault, CDEM_INPUT, "the deck has no *ELEMENT lines");
   }
+  if (reader.plane_stress && cdem_mesh_dimension(&builder->mesh) == 2)
+    cdem_builder_warn(builder,
+                      "the deck's elements are plane stress (CPS); here --plane and --thickness "
+                      "decide, not the deck's types and sections");
   return CDEM_OK;
 }

@@ -61,6 +61,9 @@ static cdem_status read_element(msh2_reader *reader, const cdem_gmsh_type *type,
                             cdem_builder_add_cell(reader->builder, type->shape, tag, node, fault)));
   CDEM_TRY(cdem_grow(&reader->physical, &reader->capacity, reader->physicals + 1,
                      sizeof *reader->physical, fault));
+  if (physical < -INT32_MAX || physical > INT32_MAX)
+    return cdem_text_fail(text, fault, "%" PRId64 " is not the number of a physical group",
+                          physical);
   reader->physical[reader->physicals++] = physical < 0 ? -physical : physical;
   return CDEM_OK;
 }

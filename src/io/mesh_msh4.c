@@ -27,6 +27,9 @@ static cdem_status read_entity(cdem_text *text, int dimension, cdem_msh_entities
   for (int64_t i = 0; i < entity.groups; i++) {
     int64_t number; /* a negative one asks gmsh for the other orientation */
     CDEM_TRY(cdem_msh_int(text, &number, fault));
+    if (number < -INT32_MAX || number > INT32_MAX)
+      return cdem_text_fail(text, fault, "%" PRId64 " is not the number of a physical group",
+                            number);
     all->physical[all->physicals++] = number < 0 ? -number : number;
   }
   int64_t bounds = 0, unused;

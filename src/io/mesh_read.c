@@ -35,19 +35,43 @@ static cdem_status check_geometry(const cdem_text *text, mesh_format format, cde
   return CDEM_OK;
 }
 
+/* MSH 4.0 was written by gmsh 4.0 only, and gmsh still reads it: such files are left to gmsh when
+ * their sections are all there (a cut file it would take in part). */
+static bool is_msh40(const cdem_text *text) {
+  static const char format[] = "$MeshFormat", version[] = "4 ", longer[] = "4.0 ";
+  int64_t head = text->size < 64 ? text->size : 64;
+  const char *at = memmem(text->data, (size_t)head, format, sizeof format - 1);
+  const char *line = at != NULL ? memchr(at, '\n', (size_t)(text->data + head - at)) : NULL;
+  if (line == NULL || text->data + head - line < 6)
+    return false;
+  return strncmp(line + 1, version, sizeof version - 1) == 0 ||
+         strncmp(line + 1, longer, sizeof longer - 1) == 0;
+}
+
+static cdem_status check_msh40(const cdem_text *text, cdem_fault *fault) {
+  static const char *const sections[] = {"$EndNodes", "$EndElements"};
+  for (int i = 0; i < 2; i++)
+    CDEM_REQUIRE(memmem(text->data, (size_t)text->size, sections[i], strlen(sections[i])) != NULL,
+                 fault, CDEM_INPUT, "the file is not complete: %s is missing", sections[i]);
+  return CDEM_OK;
+}
+
 static cdem_status read_text(const char *path, mesh_format format, cdem_mesh_builder *builder,
                              cdem_fault *fault) {
   cdem_text text;
   CDEM_TRY(cdem_text_open(path, &text, fault));
   cdem_status status;
-  if (format == MSH)
+  bool by_gmsh = format == GEO || format == STEP || (format == MSH && is_msh40(&text));
+  if (format == MSH && by_gmsh)
+    status = check_msh40(&text, fault);
+  else if (format == MSH)
     status = cdem_read_msh(&text, builder, fault);
   else if (format == INP)
     status = cdem_read_inp(&text, builder, fault);
   else
     status = check_geometry(&text, format, fault);
   cdem_text_release(&text);
-  if (status == CDEM_OK && (format == GEO || format == STEP))
+  if (status == CDEM_OK && by_gmsh)
     status = cdem_read_geometry(path, builder, fault);
   return status;
 }

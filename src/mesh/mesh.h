@@ -82,6 +82,11 @@ cdem_status cdem_mesh_coincident_nodes(const cdem_mesh *mesh, const int32_t *cel
                                        double tolerance, int64_t *pairs, int32_t *first,
                                        int32_t *second, cdem_fault *fault);
 
+/* Two of the given cells that have the same nodes, in any order: *first, *second cell ids, or -1.
+ */
+cdem_status cdem_mesh_find_twins(const cdem_mesh *mesh, const int32_t *cell, int32_t cells,
+                                 int32_t *first, int32_t *second, cdem_fault *fault);
+
 /* Topology of a chosen set of cells, all of one dimension. cell [cells] ids. */
 
 /* Connected components by shared nodes. node_component [mesh->nodes] receives 0.. or -1 for nodes

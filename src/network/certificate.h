@@ -28,11 +28,11 @@ typedef struct {
   double assembled;    /* largest |network - finite element| / largest |entry| <= 1e-12 */
   double skew_mean;    /* over the pairs, of |S - S^T| / (2 |S|) */
   cdem_worst skew, cond; /* largest skew fraction, largest cond(P): reported, no bound */
-  double patch;          /* largest interior force / largest force under uniform strains <= 1e-10 */
-  int64_t patch_nodes;   /* interior nodes tested, 0: none is interior */
-  int32_t components;    /* connected parts */
-  int64_t rigid_modes;   /* expected zero modes: 3 or 6 a part */
-  int64_t zero_modes;    /* of the balanced matrix (spectrum.h); -1: not counted == rigid_modes */
+  double patch; /* largest interior force / largest row sum of |K||u|, uniform strains <= 1e-12 */
+  int64_t patch_nodes;    /* interior nodes tested, 0: none is interior */
+  int32_t components;     /* connected parts */
+  int64_t rigid_modes;    /* expected zero modes: 3 or 6 a part */
+  int64_t zero_modes;     /* of the balanced matrix (spectrum.h); -1: not counted == rigid_modes */
   int64_t negative_modes; /* likewise == 0 */
   double rotation_bound, rebuild_bound, translation_bound, assembled_bound, patch_bound;
 } cdem_certificate;

@@ -221,6 +221,18 @@ static cdem_status check_plane(const cdem_model *model, cdem_fault *fault) {
   return CDEM_OK;
 }
 
+/* An element that is listed twice would count twice. */
+static cdem_status check_twins(const cdem_model *model, cdem_fault *fault) {
+  const cdem_mesh *mesh = model->mesh;
+  int32_t first, second;
+  CDEM_TRY(cdem_mesh_find_twins(mesh, model->cell, model->cells, &first, &second, fault));
+  CDEM_REQUIRE(first < 0, fault, CDEM_INPUT,
+               "elements %" PRId64 " and %" PRId64
+               " have the same nodes and would count twice; remove one",
+               mesh->cell_tag[first], mesh->cell_tag[second]);
+  return CDEM_OK;
+}
+
 /* The first element, by place in the mesh, that cannot be; checked by all threads. */
 static cdem_status check_elements(const cdem_model *model, cdem_fault *fault) {
   int32_t worst = model->cells;
@@ -268,6 +280,7 @@ static cdem_status build(const cdem_model_options *options, const drafts *d, cde
   CDEM_TRY(collect_cells(options, d->chosen, d->material_of, model, fault));
   CDEM_TRY(build_laws(options, d->used, model, fault));
   CDEM_TRY(check_plane(model, fault));
+  CDEM_TRY(check_twins(model, fault));
   CDEM_TRY(check_elements(model, fault));
   choose_length(options, model);
   return CDEM_OK;
