@@ -1,4 +1,5 @@
 /* Node coordinates of one element, from a mesh or from a list of coordinates. */
+#include "command.h"
 #include "io/io.h"
 #include "poisson.h"
 
@@ -96,7 +97,9 @@ cdem_status poisson_read_shape(const char *path, const cdem_element *element,
   if (has_ending(path, ".txt") || has_ending(path, ".csv") || has_ending(path, ".dat"))
     return read_text(path, element, xyz, fault);
   cdem_mesh mesh = {0};
+  command_guard(path);
   cdem_status status = cdem_read_mesh(path, &mesh, warnings, fault);
+  command_guard(NULL);
   if (status == CDEM_OK)
     status = take_cell(&mesh, path, element, xyz, fault);
   cdem_mesh_release(&mesh);
