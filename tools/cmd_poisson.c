@@ -54,7 +54,8 @@ static const struct argp_option option_table[] = {
     {NULL, 0, NULL, 0, "Output:", 3},
     {"output", 'o', "FILE", 0, "write the table to .csv or .json (default: CSV to stdout)", 3},
     {"roots", OPTION_ROOTS, NULL, 0,
-     "the critical ratios between -1 and 1/2 instead of the table: where the form changes, or two "
+     "the critical ratios between -1 and 1/2 (plane stress: 1) instead of the table: where the "
+     "form changes, or two "
      "values touch (then from = to)",
      3},
     {"figures", OPTION_FIGURES, "FOLDER", 0,

@@ -415,6 +415,32 @@ static cdem_status row_of_touch(const cdem_poisson_study *study, int i, double n
 
 /* ---- rows in all ---- */
 
+/* Half difference of a pair, squared; negative for a complex pair. Unlike the values themselves it
+ * is smooth through a change of form. */
+static double pair_discriminant(cdem_form form, const double pair[2], double coupling) {
+  double half = (pair[0] - pair[1]) / 2.0;
+  return form == CDEM_FORM_COMPLEX ? -coupling * coupling : half * half;
+}
+
+/* Off the diagonal form: single value, mean and discriminant of the pair; the closed values are put
+ * in the order of the row (single first). Returns the largest difference. */
+static double compare_pairs(cdem_poisson_row *row, const cdem_closed *closed, double largest) {
+  int first = row->size - 2, single = 0;
+  double off = 0.0;
+  for (int i = 0; first == 1 && i < 3; i++)
+    if (fabs(closed->k[i] - row->k[0]) < fabs(closed->k[single] - row->k[0]))
+      single = i;
+  for (int i = 0, at = first; i < row->size; i++)
+    row->closed[first == 1 && i == single ? 0 : at++] = closed->k[i];
+  if (first == 1)
+    off = fabs(row->k[0] - row->closed[0]);
+  const double *ours = row->k + first, *theirs = row->closed + first;
+  double mean = fabs(ours[0] + ours[1] - theirs[0] - theirs[1]) / 2.0;
+  double bend = fabs(pair_discriminant(row->form, ours, row->coupling) -
+                     pair_discriminant(closed->form, theirs, closed->coupling));
+  return fmax(off, fmax(mean, bend / largest));
+}
+
 static void compare_with_closed_form(const cdem_poisson_study *study, cdem_poisson_row *row) {
   const cdem_poisson_family *family = &study->family;
   cdem_closed closed;
@@ -426,6 +452,10 @@ static void compare_with_closed_form(const cdem_poisson_study *study, cdem_poiss
     largest = fmax(largest, fabs(closed.k[i]));
     off = fmax(off, fabs(row->k[i] - closed.k[i]));
   }
+  if (closed.form == CDEM_FORM_COMPLEX)
+    largest = fmax(largest, fabs(closed.coupling));
+  if (row->form != CDEM_FORM_DIAGONAL || closed.form != CDEM_FORM_DIAGONAL)
+    off = compare_pairs(row, &closed, largest);
   row->difference = off / largest;
 }
 
