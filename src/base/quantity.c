@@ -7,8 +7,9 @@ static const struct {
   cdem_dimension dimension;
   const char *unit;
 } named[] = {
-    {{0, 0, 0}, "1"},    {{1, 0, 0}, "m"},  {{0, 1, 0}, "s"},  {{0, 0, 1}, "kg"},
-    {{-1, -2, 1}, "Pa"}, {{1, -2, 1}, "N"}, {{2, -2, 1}, "J"}, {{0, -2, 1}, "N/m"},
+    {{0, 0, 0}, "1"},  {{1, 0, 0}, "m"},    {{0, 1, 0}, "s"},
+    {{0, 0, 1}, "kg"}, {{-1, -2, 1}, "Pa"}, {{1, -2, 1}, "N"},
+    {{2, -2, 1}, "J"}, {{0, -2, 1}, "N/m"}, {{-2, -2, 1}, "Pa/m"},
 };
 
 char *cdem_dimension_unit(cdem_dimension dimension, char text[48]) {

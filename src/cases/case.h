@@ -1,0 +1,207 @@
+/* Room cases: what a person can ask for, as one table and one typed case.
+ *
+ * The table (schema.h) knows each key's kind, dimension, default, range, grain/domain tag and help.
+ * Reading (io/case_file.c), `cdem help case`, the JSON Schema, docs/reference/case.md and, later,
+ * exact scaling follow from it. To add a key: a member here, a line in the table of its section.
+ *
+ * Numbers are SI. A number that was not given and has no default is NaN. Texts are owned.
+ */
+#ifndef CDEM_CASES_CASE_H
+#define CDEM_CASES_CASE_H
+
+#include "base/base.h"
+#include "base/series.h"
+#include "elements/material.h"
+
+#include <stdbool.h>
+
+/* Lists of the case: `item` [count]. */
+#define CDEM_CASE_LIST(type)                                                                       \
+  struct {                                                                                         \
+    int64_t count;                                                                                 \
+    type *item;                                                                                    \
+  }
+typedef CDEM_CASE_LIST(char *) cdem_case_texts;
+
+/* name: value, for the parameters of a .geo file. */
+typedef struct {
+  char *name;
+  double value;
+} cdem_case_parameter;
+
+/* mesh: */
+typedef struct {
+  char *file; /* as written; relative to the case file */
+  CDEM_CASE_LIST(cdem_case_parameter) parameters; /* of a .geo file: DefineConstant */
+  double unit; /* m, one unit of the file's coordinates; 1 m */
+  /* or a structured grid: */
+  int shape;          /* 0: none; else 1 + index into the choices tri3 quad4 tet4 pyr5 wedge6 hex8 */
+  double count[3];    /* bricks a direction */
+  double size[3];     /* m */
+  double origin[3];   /* m */
+  double distortion;  /* 0 .. 0.25 */
+  int64_t seed;
+} cdem_case_mesh;
+
+/* materials: NAME: */
+typedef struct {
+  char *name;
+  cdem_material material;
+  double density;       /* kg/m^3; NaN: none (static runs without gravity) */
+  double micro_inertia; /* m^2; NaN: square of the material's length */
+  cdem_case_texts groups; /* none: wherever no other material is */
+} cdem_case_material;
+
+/* blocks: */
+typedef struct {
+  cdem_case_texts breakable, separate, joints;
+} cdem_case_blocks;
+
+/* interfaces: - ; the first entry that fits a face is its law */
+typedef struct {
+  cdem_case_texts between; /* none or two groups of volumes (may be the same) */
+  char *joint;             /* or a group of faces */
+  int insertion;           /* penalty tied */
+  double stiffness_factor; /* kn = factor (lambda + 2G)/h of the stiffer neighbour; 10 */
+  double shear_ratio;      /* ks/kn; NaN: G/(lambda + 2G) of that neighbour */
+  double normal_stiffness, shear_stiffness; /* Pa/m, instead of the factor */
+  double tension, cohesion;                 /* Pa */
+  double friction, dilation;                /* tan phi, tan psi */
+  int softening;                            /* brittle linear */
+  int unloading;                            /* elastic origin */
+  double energy_1, energy_2;                /* J/m^2 */
+} cdem_case_interface;
+
+/* contact: */
+typedef struct {
+  bool active;
+  double stiffness_factor, shear_ratio, normal_stiffness, shear_stiffness; /* as above */
+  double friction, damping;
+  double skin;    /* m; NaN: automatic */
+  double release; /* fraction of a face after which a broken interface becomes contact; 0.05 */
+} cdem_case_contact;
+
+/* components x y z rotation, each a function of time or not given (points == 0 and given false) */
+typedef struct {
+  bool given[4];
+  cdem_series component[4];
+} cdem_case_components;
+
+/* supports: - */
+typedef struct {
+  char *group;
+  cdem_case_components displacement; /* m; rotation rad */
+  cdem_case_components velocity;     /* m/s */
+} cdem_case_support;
+
+/* loads: - */
+typedef struct {
+  char *group;
+  cdem_case_components force;    /* N, total, spread over the group by area (points: evenly) */
+  cdem_case_components traction; /* Pa, fixed in direction */
+  bool has_pressure;
+  cdem_series pressure; /* Pa, follows the surface */
+  /* exact tractions of Kirsch's solution (uniaxial tension along x, hole at `center`) */
+  double kirsch_tension, kirsch_radius; /* Pa, m; NaN: none */
+  double kirsch_center[3];
+} cdem_case_load;
+
+/* plates: NAME: */
+typedef struct {
+  char *name;
+  double point[3], normal[3], axis[3], half_size[2];
+  cdem_case_components velocity;
+  double stiffness_factor, normal_stiffness, shear_ratio, friction;
+} cdem_case_plate;
+
+/* initial: - */
+typedef struct {
+  cdem_case_texts groups; /* none: everywhere */
+  double velocity[3];     /* m/s */
+  double spin[3];         /* rad/s about `center` */
+  double center[3];
+} cdem_case_initial;
+
+/* probes: NAME: a column of history.csv */
+typedef struct {
+  char *name;
+  char *group;
+  int quantity; /* displacement velocity force stress; force is the sum, others means over the group */
+  int component; /* x y z rotation, xx yy zz yz xz xy, magnitude */
+} cdem_case_probe;
+
+/* curves: NAME: a figure drawn from history.csv */
+typedef struct {
+  char *name;
+  char *title;
+  char *x;           /* column */
+  cdem_case_texts y; /* columns */
+  double x_scale, y_scale; /* factors before drawing (-1 turns compression positive) */
+  char *x_label, *y_label;
+} cdem_case_curve;
+
+/* results: of a run, key numbers in summary.json: NAME: {of: column, take: max|min|last|mean} */
+typedef struct {
+  char *name;
+  char *of;
+  int take;      /* max min last mean */
+  double factor; /* multiplies the column before */
+  double reference, tolerance; /* expected value and relative tolerance; NaN: none */
+} cdem_case_key_result;
+
+typedef enum { CDEM_ANALYSIS_DYNAMIC, CDEM_ANALYSIS_RELAXATION, CDEM_ANALYSIS_STATIC } cdem_analysis;
+
+typedef struct {
+  char *title;
+  int analysis;         /* cdem_analysis */
+  int plane;            /* strain stress */
+  double thickness;     /* m */
+  bool cosserat;        /* informational: follows from the materials */
+  double end;           /* s */
+  double step, safety;  /* s; NaN: automatic */
+  double mass_damping, local_damping;
+  double tolerance;     /* unbalanced-force ratio of a relaxation */
+  int64_t most_steps;   /* of a relaxation */
+  double gravity[3];
+  cdem_case_texts quiet; /* groups of faces */
+  double history_every, frame_every, checkpoint_every; /* s of the run; NaN: end/400, end/20, 5 min
+                                                          of wall time */
+  char *stop_when;       /* name of a history column: the run ends when ... */
+  double stop_below;     /* ... its size falls below this fraction of its peak (after the peak) */
+  cdem_case_mesh mesh;
+  CDEM_CASE_LIST(cdem_case_material) materials;
+  cdem_case_blocks blocks;
+  CDEM_CASE_LIST(cdem_case_interface) interfaces;
+  cdem_case_contact contact;
+  CDEM_CASE_LIST(cdem_case_support) supports;
+  CDEM_CASE_LIST(cdem_case_load) loads;
+  CDEM_CASE_LIST(cdem_case_plate) plates;
+  CDEM_CASE_LIST(cdem_case_initial) initial;
+  CDEM_CASE_LIST(cdem_case_probe) probes;
+  CDEM_CASE_LIST(cdem_case_curve) curves;
+  CDEM_CASE_LIST(cdem_case_key_result) results;
+} cdem_case_values;
+
+typedef struct cdem_case_places cdem_case_places; /* private: where each value stands in the file */
+
+typedef struct {
+  char *path;   /* of the file */
+  char *source; /* its text, with overrides applied where there were any */
+  cdem_case_values values;
+  cdem_case_places *places;
+} cdem_case;
+
+void cdem_case_release(cdem_case *cases);
+
+/* A failure that has to do with the value at `key` ("supports[1].group", "step"): the message gets
+ * file:line:column and the line with a caret. A key that was not given: the nearest section above
+ * it. */
+__attribute__((format(printf, 5, 6))) cdem_status cdem_case_fail(const cdem_case *cases,
+                                                                 const char *key,
+                                                                 cdem_status status,
+                                                                 cdem_fault *fault,
+                                                                 const char *format, ...);
+/* The same for a message another room made. */
+cdem_status cdem_case_blame(const cdem_case *cases, const char *key, cdem_fault *fault);
+
+#endif

@@ -1,0 +1,51 @@
+/* Room run: from a case to a finished run folder.
+ *
+ * Reads the case and its mesh, builds the solver, steps it, and hands what comes out to io: frames,
+ * history, checkpoints, figures and summary.json. The program, the verification and the tests all
+ * run cases through this door.
+ *
+ *     DIR/case.yaml        the case as run (overrides applied), so that the folder stands alone
+ *     DIR/checkpoint.h5    the mesh and the last state
+ *     DIR/history.csv      one row per output time, header with units
+ *     DIR/SET.pvd, SET/    frames
+ *     DIR/figures/         curves of the case, energies, final pattern
+ *     DIR/summary.json     settings, version, checksums, wall time, key results
+ *     DIR/.lock            held while a run writes here
+ */
+#ifndef CDEM_RUN_RUN_H
+#define CDEM_RUN_RUN_H
+
+#include "base/base.h"
+#include "io/io.h"
+
+typedef struct {
+  const char *path;     /* of the case; NULL with resume */
+  const char *folder;
+  bool resume;          /* continue folder's run from its checkpoint */
+  int overrides;
+  const char *const *override; /* "mesh.parameters.h=2" */
+  int threads;          /* 0: OpenMP's default */
+  bool figures;         /* draw them */
+  bool frames;          /* write them */
+  const char *version, *commit; /* for summary.json */
+  const cdem_progress *progress;
+  const cdem_warnings *warnings;
+} cdem_run_options;
+
+typedef struct {
+  int64_t steps;
+  double time, wall; /* s */
+  int64_t elements, blocks, interfaces;
+  double energy_error; /* |error| of the book by its scale */
+  int results;         /* key results with a reference */
+  int failed;          /* ... that are off by more than their tolerance */
+  cdem_table keys;     /* name, value, unit, reference, difference */
+} cdem_run_summary;
+
+/* CDEM_INTERRUPTED after a wish to stop: a checkpoint has been written and the message says how to go
+ * on. CDEM_INPUT when the folder is in use by another run. */
+cdem_status cdem_run(const cdem_run_options *options, cdem_run_summary *summary,
+                     cdem_fault *fault);
+void cdem_run_summary_release(cdem_run_summary *summary);
+
+#endif
