@@ -2,6 +2,7 @@
  * (Okabe and Ito 2008) and, in grey print, by their dashes; a legend that covers no curve. */
 #include "io/figure.h"
 
+#include "io/gnuplot.h"
 #include "io/text.h"
 
 #include <math.h>
@@ -16,10 +17,9 @@
 #define MARGIN_BOTTOM  44.0
 #define MARGIN_TOP     24.0
 #define FIGURE_TITLE   24.0
+#define X_LABEL        30.0 /* from the axes down to the middle of the label */
 #define Y_LABEL        55.0 /* from the axes to the middle of the label */
-#define FONT           "DejaVu Sans"
-#define FONT_SIZE      9.5 /* points of 4/3 pixel */
-#define LETTER_WIDTH   6.7 /* mean advance */
+#define LETTER_WIDTH   6.7  /* mean advance */
 #define LINE_HEIGHT    16.0
 #define LEGEND_SAMPLE  34.0
 #define LEGEND_PADDING 22.0 /* left and right together */
@@ -121,14 +121,6 @@ static range y_range(const cdem_panel *panel) {
   return finish_range(r, 0.05);
 }
 
-/* Letters of a text as drawn: UTF-8 continuation bytes and gnuplot's markup do not count. */
-static int letters(const char *text) {
-  int count = 0;
-  for (const char *c = text; *c != '\0'; c++)
-    count += ((unsigned char)*c & 0xc0) != 0x80 && strchr("_^{}", *c) == NULL;
-  return count;
-}
-
 static bool has_entry(const cdem_curve *curve) {
   return curve->title != NULL && curve->title[0] != '\0';
 }
@@ -138,7 +130,7 @@ static void legend_size(const cdem_panel *panel, double *width, double *height) 
   int longest = 0, entries = 0;
   for (int c = 0; c < panel->curves; c++)
     if (has_entry(&panel->curve[c])) {
-      int n = letters(panel->curve[c].title);
+      int n = cdem_gnuplot_letters(panel->curve[c].title);
       longest = n > longest ? n : longest;
       entries++;
     }
@@ -205,53 +197,39 @@ static const place *place_legend(const cdem_panel *panel, range x, range *y) {
 
 /* ---- script ---- */
 
-/* A gnuplot text in single quotes; control characters become spaces. */
-static void put_quoted(FILE *stream, const char *text) {
-  fputc('\'', stream);
-  for (const char *c = text != NULL ? text : ""; *c != '\0'; c++) {
-    if (*c == '\'')
-      fputc('\'', stream);
-    fputc((unsigned char)*c < ' ' ? ' ' : *c, stream);
-  }
-  fputc('\'', stream);
-}
-
-static void put_number(FILE *stream, double value) {
-  char text[CDEM_REAL_WIDTH];
-  fwrite(text, 1, (size_t)(cdem_put_real(text, value) - text), stream);
-}
-
-static void put_range(FILE *stream, const char *axis, range r) {
-  fprintf(stream, "set %srange [", axis);
-  put_number(stream, r.low);
-  fputs(":", stream);
-  put_number(stream, r.high);
-  fputs("]\n", stream);
-}
-
-/* Ticks of very large or small numbers as powers of ten. */
-static void put_format(FILE *stream, const char *axis, range r) {
-  double size = fmax(fabs(r.low), fabs(r.high));
-  bool plain = size < 1e5 && size >= 1e-2;
-  fprintf(stream, "set format %s '%s'\n", axis, plain ? "%g" : "%.1t×10^{%T}");
-}
-
-static void put_plot(FILE *stream, const cdem_panel *panel, int first) {
+static void put_plot(FILE *stream, const cdem_panel *panel, int first, const int power[2]) {
   fputs("plot ", stream);
   for (int c = 0; c < panel->curves; c++) {
     const cdem_curve *curve = &panel->curve[c];
     bool guide = curve->style < 0;
     int style = guide ? 0 : curve->style % STYLES;
-    fprintf(stream, "%sdata index %d with lines lw %s lc rgb '%s' dt %s %s",
-            c > 0 ? ", \\\n     " : "", first + c, guide ? "0.7" : "1.5",
+    fprintf(stream, "%sdata index %d using ", c > 0 ? ", \\\n     " : "", first + c);
+    cdem_gnuplot_column(stream, 1, power[0]);
+    fputc(':', stream);
+    cdem_gnuplot_column(stream, 2, power[1]);
+    fprintf(stream, " with lines lw %s lc rgb '%s' dt %s %s", guide ? "0.7" : "1.5",
             guide ? "#9a9a9a" : styles[style].colour, guide ? "solid" : styles[style].dashes,
             has_entry(curve) ? "title " : "notitle");
     if (has_entry(curve))
-      put_quoted(stream, curve->title);
+      cdem_gnuplot_text(stream, curve->title);
   }
   if (panel->curves == 0)
     fputs("1/0 notitle", stream);
   fputc('\n', stream);
+}
+
+/* The range of an axis in numbers divided by a power of ten, which is written at its end. */
+static void put_scaled(FILE *stream, const char *axis, range r, int power, const char *where,
+                       double height) {
+  char text[32];
+  double factor = pow(10.0, power);
+  cdem_gnuplot_power_text(power, text);
+  cdem_gnuplot_range(stream, axis, r.low / factor, r.high / factor);
+  fprintf(stream, "set label %d ", axis[0] == 'x' ? 5 : 6);
+  cdem_gnuplot_text(stream, text);
+  fprintf(stream, " at %s", where);
+  cdem_gnuplot_number(stream, height);
+  fprintf(stream, " right font '" CDEM_GNUPLOT_FONT ",%g'\n", CDEM_GNUPLOT_TICS_SIZE);
 }
 
 /* Panel p stands in column p % columns of row p / columns, from the top. */
@@ -269,27 +247,26 @@ static void put_panel(FILE *stream, const cdem_figure *figure, int p, int first,
   fputs("\nset margins screen ", stream);
   for (int e = 0; e < 4; e++) {
     fputs(e == 0 ? "" : ", screen ", stream);
-    put_number(stream, edge[e]);
+    cdem_gnuplot_number(stream, edge[e]);
   }
   fputc('\n', stream);
-  put_range(stream, "x", x);
-  put_range(stream, "y", y);
-  put_format(stream, "x", x);
-  put_format(stream, "y", y);
+  const int power[2] = {cdem_gnuplot_power(x.low, x.high), cdem_gnuplot_power(y.low, y.high)};
+  put_scaled(stream, "x", x, power[0], "graph 1, screen ", (top - AXES_HEIGHT - X_LABEL) / height);
+  put_scaled(stream, "y", y, power[1], "graph -0.02, screen ", (top + 10.0) / height);
   fputs("set xlabel ", stream);
-  put_quoted(stream, panel->x_label);
+  cdem_gnuplot_text(stream, panel->x_label);
   /* A label of our own: gnuplot would move it with the width of the tick labels. */
   fputs("\nset label 3 ", stream);
-  put_quoted(stream, panel->y_label);
+  cdem_gnuplot_text(stream, panel->y_label);
   fputs(" at screen ", stream);
-  put_number(stream, (left - Y_LABEL) / width);
+  cdem_gnuplot_number(stream, (left - Y_LABEL) / width);
   fputs(", graph 0.5 center rotate by 90", stream);
   fprintf(stream, "\nset key %s\nset label 1 ", legend->key);
-  put_quoted(stream, panel->title);
+  cdem_gnuplot_text(stream, panel->title);
   fputs(" at graph 0, 1.055 left\n", stream);
   if (figure->panels > 1)
     fprintf(stream, "set label 2 '(%c)' at graph 1, 1.055 right\n", 'a' + p % 26);
-  put_plot(stream, panel, first);
+  put_plot(stream, panel, first, power);
 }
 
 void cdem_figure_put_script(FILE *stream, const char *name, const cdem_figure *figure) {
@@ -299,37 +276,22 @@ void cdem_figure_put_script(FILE *stream, const char *name, const cdem_figure *f
   bool titled = figure->title != NULL && figure->title[0] != '\0';
   double width = across * (MARGIN_LEFT + AXES_WIDTH + MARGIN_RIGHT);
   double height = rows * (MARGIN_TOP + AXES_HEIGHT + MARGIN_BOTTOM) + (titled ? FIGURE_TITLE : 0.0);
-  fputs("# draws the .png and .svg beside it: gnuplot THIS_FILE, in this folder\n", stream);
-  const char *const kind[] = {"png", "svg", "data"}, *const ending[] = {".png", ".svg", ".dat"};
-  for (int i = 0; i < 3; i++) {
-    fprintf(stream, "if (!exists('%s')) %s = ", kind[i], kind[i]);
-    put_quoted(stream, name);
-    fprintf(stream, ".'%s'\n", ending[i]);
-  }
+  cdem_gnuplot_begin(stream, name, width, height, "");
   fprintf(stream,
-          "set encoding utf8\nset minussign\n"
-          "do for [kind in 'png svg'] {\n"
-          "if (kind eq 'png') {\n"
-          "  set terminal pngcairo enhanced size %d,%d font '" FONT
-          ",%g' fontscale 2 linewidth 2 dashlength 0.8 background rgb 'white'\n"
-          "  set output png\n} else {\n"
-          "  set terminal svg enhanced size %d,%d font '" FONT
-          ",%g' fontscale 1.3333 linewidth 1 dashlength 0.8 background rgb 'white'\n"
-          "  set output svg\n}\n",
-          (int)(2 * width), (int)(2 * height), FONT_SIZE, (int)width, (int)height, FONT_SIZE);
-  fprintf(stream, "set border 31 lw 0.6 lc rgb '#222222'\n"
-                  "set tics in scale 0.6,0.3 font '" FONT ",8.2' textcolor rgb 'black'\n"
-                  "set mxtics 2\nset mytics 2\n"
-                  "set xzeroaxis lw 0.4 lc rgb '#b0b0b0' dt solid\n"
-                  "set key nobox Left reverse samplen 2.4 spacing 1.05\n"
-                  "set xlabel offset 0,0.4\n"
-                  "set multiplot\n");
+          "set border 31 lw 0.6 lc rgb '#222222'\n"
+          "set tics in scale 0.6,0.3 font '" CDEM_GNUPLOT_FONT ",%g' textcolor rgb 'black'\n"
+          "set mxtics 2\nset mytics 2\n"
+          "set xzeroaxis lw 0.4 lc rgb '#b0b0b0' dt solid\n"
+          "set key nobox Left reverse samplen 2.4 spacing 1.05\n"
+          "set xlabel offset 0,0.4\n"
+          "set multiplot\n",
+          CDEM_GNUPLOT_TICS_SIZE);
   if (titled) {
     fputs("set label 4 ", stream);
-    put_quoted(stream, figure->title);
+    cdem_gnuplot_text(stream, figure->title);
     fprintf(stream, " at screen 0.5, screen ");
-    put_number(stream, 1.0 - 0.55 * FIGURE_TITLE / height);
-    fprintf(stream, " center font '" FONT ",%g'\n", FONT_SIZE + 1);
+    cdem_gnuplot_number(stream, 1.0 - 0.55 * FIGURE_TITLE / height);
+    fprintf(stream, " center font '" CDEM_GNUPLOT_FONT ",%g'\n", CDEM_GNUPLOT_FONT_SIZE + 1);
   }
   for (int p = 0, first = 0; p < figure->panels; p++) {
     put_panel(stream, figure, p, first, width, height);
@@ -337,5 +299,19 @@ void cdem_figure_put_script(FILE *stream, const char *name, const cdem_figure *f
     if (p == 0 && titled)
       fputs("unset label 4\n", stream);
   }
-  fputs("\nunset multiplot\nset output\nreset\n}\n", stream);
+  fputs("\nunset multiplot\n", stream);
+  cdem_gnuplot_end(stream);
+}
+
+static void put_data(FILE *stream, const void *picture) {
+  cdem_figure_put_data(stream, picture);
+}
+
+static void put_script(FILE *stream, const char *name, const void *picture) {
+  cdem_figure_put_script(stream, name, picture);
+}
+
+cdem_status cdem_write_figure(const char *folder, const char *name, const cdem_figure *figure,
+                              cdem_fault *fault) {
+  return cdem_gnuplot_draw(folder, name, &(cdem_drawing){figure, put_data, put_script}, fault);
 }

@@ -1,12 +1,16 @@
-/* Figures: data and script are files of our own, gnuplot is a child process that draws them.
+/* Pictures: data and script are files of our own, gnuplot is a child process that draws them.
  *
  * No shell is involved, so that a name may hold spaces and quotes. gnuplot runs in the folder of
- * the figure and draws into temporary files, which are renamed when both are whole. */
-#include "io/figure.h"
+ * the picture and draws into temporary files, which are renamed when both are whole. */
+#include "io/gnuplot.h"
+
 #include "io/output.h"
+#include "io/run_files.h"
+#include "io/text.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,7 +36,7 @@ static char *join(const char *folder, const char *prefix, const char *name, cons
 }
 
 static cdem_status put_file(const char *folder, const char *name, const char *ending,
-                            const cdem_figure *figure, cdem_fault *fault) {
+                            const cdem_drawing *drawing, cdem_fault *fault) {
   char *path = join(folder, "", name, ending, "", fault);
   if (path == NULL)
     return CDEM_MEMORY;
@@ -41,9 +45,9 @@ static cdem_status put_file(const char *folder, const char *name, const char *en
   free(path);
   CDEM_TRY(status);
   if (strcmp(ending, "dat") == 0)
-    cdem_figure_put_data(cdem_output_stream(output), figure);
+    drawing->put_data(cdem_output_stream(output), drawing->picture);
   else
-    cdem_figure_put_script(cdem_output_stream(output), name, figure);
+    drawing->put_script(cdem_output_stream(output), name, drawing->picture);
   return cdem_output_commit(&output, fault);
 }
 
@@ -180,36 +184,92 @@ static cdem_status draw_and_publish(const char *folder, const char *name, const 
   return status;
 }
 
-/* The folder and its parents, where they are missing. */
-static cdem_status make_folder(const char *folder, cdem_fault *fault) {
-  char *path = cdem_copy_text(folder, fault);
-  if (path == NULL)
-    return CDEM_MEMORY;
-  cdem_status status = CDEM_OK;
-  for (char *at = path; status == CDEM_OK && *at != '\0'; at++) {
-    at += strspn(at, "/");
-    at += strcspn(at, "/");
-    char keep = *at;
-    *at = '\0';
-    if (mkdir(path, 0777) != 0 && errno != EEXIST)
-      status = cdem_fail(fault, CDEM_FILE, "cannot make the folder '%s': %s; choose another one",
-                         path, strerror(errno));
-    *at = keep;
-    if (keep == '\0')
-      break;
-  }
-  free(path);
-  return status;
-}
-
-cdem_status cdem_write_figure(const char *folder, const char *name, const cdem_figure *figure,
+cdem_status cdem_gnuplot_draw(const char *folder, const char *name, const cdem_drawing *drawing,
                               cdem_fault *fault) {
   CDEM_REQUIRE(strpbrk(name, "/\n") == NULL && name[0] != '\0', fault, CDEM_USAGE,
                "'%s' cannot be the name of a figure; leave out folders and line breaks", name);
   char suffix[32];
   snprintf(suffix, sizeof suffix, ".part-%ld", (long)getpid());
-  CDEM_TRY(make_folder(folder, fault));
-  CDEM_TRY(put_file(folder, name, "dat", figure, fault));
-  CDEM_TRY(put_file(folder, name, "gp", figure, fault));
+  CDEM_TRY(cdem_make_folder(folder, fault));
+  CDEM_TRY(put_file(folder, name, "dat", drawing, fault));
+  CDEM_TRY(put_file(folder, name, "gp", drawing, fault));
   return draw_and_publish(folder, name, suffix, fault);
+}
+
+/* ---- pieces of scripts ---- */
+
+void cdem_gnuplot_text(FILE *stream, const char *text) {
+  fputc('\'', stream);
+  for (const char *c = text != NULL ? text : ""; *c != '\0'; c++) {
+    if (*c == '\'')
+      fputc('\'', stream);
+    fputc((unsigned char)*c < ' ' ? ' ' : *c, stream);
+  }
+  fputc('\'', stream);
+}
+
+void cdem_gnuplot_number(FILE *stream, double value) {
+  char text[CDEM_REAL_WIDTH];
+  fwrite(text, 1, (size_t)(cdem_put_real(text, value) - text), stream);
+}
+
+void cdem_gnuplot_range(FILE *stream, const char *axis, double low, double high) {
+  fprintf(stream, "set %srange [", axis);
+  cdem_gnuplot_number(stream, low);
+  fputs(":", stream);
+  cdem_gnuplot_number(stream, high);
+  fputs("]\n", stream);
+}
+
+int cdem_gnuplot_power(double low, double high) {
+  double size = fmax(fabs(low), fabs(high));
+  bool plain = !(size > 0.0) || (size < 1e5 && size >= 1e-2);
+  return plain ? 0 : 3 * (int)floor(log10(size) / 3.0);
+}
+
+void cdem_gnuplot_power_text(int power, char text[32]) {
+  text[0] = '\0';
+  if (power != 0)
+    snprintf(text, 32, "×10^{%s%d}", power < 0 ? "−" : "", abs(power));
+}
+
+void cdem_gnuplot_column(FILE *stream, int column, int power) {
+  if (power == 0)
+    fprintf(stream, "%d", column);
+  else
+    fprintf(stream, "($%d*1e%d)", column, -power);
+}
+
+int cdem_gnuplot_letters(const char *text) {
+  int count = 0;
+  for (const char *c = text; *c != '\0'; c++)
+    count += ((unsigned char)*c & 0xc0) != 0x80 && strchr("_^{}", *c) == NULL;
+  return count;
+}
+
+void cdem_gnuplot_begin(FILE *stream, const char *name, double width, double height,
+                        const char *more) {
+  fputs("# draws the .png and .svg beside it: gnuplot THIS_FILE, in this folder\n", stream);
+  const char *const kind[] = {"png", "svg", "data"}, *const ending[] = {".png", ".svg", ".dat"};
+  for (int i = 0; i < 3; i++) {
+    fprintf(stream, "if (!exists('%s')) %s = ", kind[i], kind[i]);
+    cdem_gnuplot_text(stream, name);
+    fprintf(stream, ".'%s'\n", ending[i]);
+  }
+  fprintf(stream,
+          "set encoding utf8\nset minussign\n"
+          "do for [kind in 'png svg'] {\n"
+          "if (kind eq 'png') {\n"
+          "  set terminal pngcairo enhanced size %d,%d font '" CDEM_GNUPLOT_FONT
+          ",%g' fontscale 2 linewidth 2 dashlength 0.8 background rgb 'white' %s\n"
+          "  set output png\n} else {\n"
+          "  set terminal svg enhanced size %d,%d font '" CDEM_GNUPLOT_FONT
+          ",%g' fontscale 1.3333 linewidth 1 dashlength 0.8 background rgb 'white' %s\n"
+          "  set output svg\n}\n",
+          (int)(2 * width), (int)(2 * height), CDEM_GNUPLOT_FONT_SIZE, more, (int)width,
+          (int)height, CDEM_GNUPLOT_FONT_SIZE, more);
+}
+
+void cdem_gnuplot_end(FILE *stream) {
+  fputs("set output\nreset\n}\n", stream);
 }

@@ -24,4 +24,8 @@ cdem_status cdem_output_fail(const cdem_output *output, int error, cdem_fault *f
 /* The same for a path that has no output. */
 cdem_status cdem_write_fail(const char *path, int error, cdem_fault *fault);
 
+/* FOLDER/NAME, newly allocated (a folder "" stands for the present one); NULL when out of memory.
+ */
+char *cdem_join_path(const char *folder, const char *name, cdem_fault *fault);
+
 #endif

@@ -11,6 +11,7 @@
  * and couples_to that hold only zeros are not written at all: HDF5 gives zeros back for chunks
  * that are not there. */
 #include "io/hdf5_driver.h"
+#include "io/hdf5_tools.h"
 #include "io/output.h"
 #include "io/springs.h"
 
@@ -104,23 +105,6 @@ static bool has(const cdem_model *model, int c) {
 
 static int64_t row_bytes(const cdem_model *model, int c) {
   return (columns[c].type == CODE ? 1 : 8) * (columns[c].per_spring ? model->dofs : 1);
-}
-
-/* HDF5 prints its own error stack unless told not to. */
-typedef struct {
-  H5E_auto2_t report;
-  void *data;
-} h5_silence;
-
-static h5_silence silence(void) {
-  h5_silence before = {0};
-  H5Eget_auto2(H5E_DEFAULT, &before.report, &before.data);
-  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-  return before;
-}
-
-static void unsilence(h5_silence before) {
-  H5Eset_auto2(H5E_DEFAULT, before.report, before.data);
 }
 
 static cdem_status fail(const h5_writer *h5, cdem_fault *fault) {
@@ -304,50 +288,15 @@ static cdem_status write_chunk(void *context, const cdem_chunk *chunk, const cde
     memcpy(&at, pair + 8 * i, sizeof at);
     put_tag(pair, i, at + first);
   }
-  h5_silence before = silence();
+  cdem_hdf5_silence before = cdem_hdf5_silence_begin();
   cdem_status status = stage_rows(h5, PAIRS, buffer->data, offset, header.rows[PAIRS], fault);
   if (status == CDEM_OK)
     status = stage_rows(h5, EXTRA, buffer->data, offset, header.rows[EXTRA], fault);
-  unsilence(before);
+  cdem_hdf5_silence_end(before);
   return status;
 }
 
 /* ---- what is written once: attributes, nodes, empty datasets ---- */
-
-/* One text (count 0) or an array of texts. */
-static bool put_texts(hid_t object, const char *name, const char *const *text, int count) {
-  hsize_t size = (hsize_t)count;
-  hid_t type = H5Tcopy(H5T_C_S1);
-  hid_t space = count > 0 ? H5Screate_simple(1, &size, NULL) : H5Screate(H5S_SCALAR);
-  bool good = type >= 0 && space >= 0 && H5Tset_size(type, H5T_VARIABLE) >= 0 &&
-              H5Tset_cset(type, H5T_CSET_UTF8) >= 0;
-  hid_t attribute =
-      good ? H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT) : (hid_t)-1;
-  good = attribute >= 0 && H5Awrite(attribute, type, text) >= 0;
-  if (attribute >= 0)
-    H5Aclose(attribute);
-  if (space >= 0)
-    H5Sclose(space);
-  if (type >= 0)
-    H5Tclose(type);
-  return good;
-}
-
-static bool put_text(hid_t object, const char *name, const char *text) {
-  return put_texts(object, name, &text, 0);
-}
-
-static bool put_scalar(hid_t object, const char *name, hid_t type, const void *value) {
-  hid_t space = H5Screate(H5S_SCALAR);
-  hid_t attribute =
-      space >= 0 ? H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT) : (hid_t)-1;
-  bool good = attribute >= 0 && H5Awrite(attribute, type, value) >= 0;
-  if (attribute >= 0)
-    H5Aclose(attribute);
-  if (space >= 0)
-    H5Sclose(space);
-  return good;
-}
 
 static cdem_status put_materials(h5_writer *h5, cdem_fault *fault) {
   const cdem_model *model = h5->model;
@@ -358,7 +307,7 @@ static cdem_status put_materials(h5_writer *h5, cdem_fault *fault) {
     if ((text[i] = cdem_material_text(&model->materials_of[i], fault)) == NULL)
       status = CDEM_MEMORY;
   if (status == CDEM_OK && model->materials > 0 &&
-      !put_texts(h5->file, "material", (const char *const *)text, model->materials))
+      !cdem_hdf5_put_texts(h5->file, "material", (const char *const *)text, model->materials))
     status = fail(h5, fault);
   for (int i = 0; i < model->materials; i++)
     free(text[i]);
@@ -372,39 +321,34 @@ static cdem_status put_settings(h5_writer *h5, cdem_fault *fault) {
   const int version = 1;
   bool plane = model->formulation != CDEM_SOLID;
   bool good =
-      put_text(h5->file, "format", "cdem springs") &&
-      put_scalar(h5->file, "format_version", H5T_NATIVE_INT, &version) &&
-      put_text(h5->file, "program", "cdem " CDEM_VERSION) &&
-      put_text(h5->file, "mesh", model->mesh->source != NULL ? model->mesh->source : "generated") &&
-      put_scalar(h5->file, "dimension", H5T_NATIVE_INT, &model->dimension) &&
-      put_scalar(h5->file, "dofs", H5T_NATIVE_INT, &model->dofs) &&
-      put_text(h5->file, "formulation", formulations[model->formulation]) &&
-      put_scalar(h5->file, "length", H5T_NATIVE_DOUBLE, &model->length) &&
-      put_text(h5->file, "formula",
-               cdem_model_is_cosserat(model) ? CDEM_SPRINGS_FORMULA_COSSERAT
-                                             : CDEM_SPRINGS_FORMULA) &&
-      put_text(h5->file, "layout",
-               "row p of /springs is a pair; columns of two dimensions hold springs 1 .. dofs; "
-               "couples_to counts springs from 1, 0 is none; /extra holds further rows of "
-               "pair p; the attribute names of kind, class and form lists what the integers mean");
+      cdem_hdf5_put_text(h5->file, "format", "cdem springs") &&
+      cdem_hdf5_put_scalar(h5->file, "format_version", H5T_NATIVE_INT, &version) &&
+      cdem_hdf5_put_text(h5->file, "program", "cdem " CDEM_VERSION) &&
+      cdem_hdf5_put_text(h5->file, "mesh",
+                         model->mesh->source != NULL ? model->mesh->source : "generated") &&
+      cdem_hdf5_put_scalar(h5->file, "dimension", H5T_NATIVE_INT, &model->dimension) &&
+      cdem_hdf5_put_scalar(h5->file, "dofs", H5T_NATIVE_INT, &model->dofs) &&
+      cdem_hdf5_put_text(h5->file, "formulation", formulations[model->formulation]) &&
+      cdem_hdf5_put_scalar(h5->file, "length", H5T_NATIVE_DOUBLE, &model->length) &&
+      cdem_hdf5_put_text(h5->file, "formula",
+                         cdem_model_is_cosserat(model) ? CDEM_SPRINGS_FORMULA_COSSERAT
+                                                       : CDEM_SPRINGS_FORMULA) &&
+      cdem_hdf5_put_text(
+          h5->file, "layout",
+          "row p of /springs is a pair; columns of two dimensions hold springs 1 .. dofs; "
+          "couples_to counts springs from 1, 0 is none; /extra holds further rows of "
+          "pair p; the attribute names of kind, class and form lists what the integers mean");
   if (good && plane)
-    good = put_text(h5->file, "plane",
-                    model->section.plane == CDEM_PLANE_STRESS ? "stress" : "strain") &&
-           put_scalar(h5->file, "thickness", H5T_NATIVE_DOUBLE, &model->section.thickness);
+    good =
+        cdem_hdf5_put_text(h5->file, "plane",
+                           model->section.plane == CDEM_PLANE_STRESS ? "stress" : "strain") &&
+        cdem_hdf5_put_scalar(h5->file, "thickness", H5T_NATIVE_DOUBLE, &model->section.thickness);
   return good ? put_materials(h5, fault) : fail(h5, fault);
-}
-
-/* Without the time of day, so that the same input gives the same bytes. */
-static hid_t dataset_properties(void) {
-  hid_t create = H5Pcreate(H5P_DATASET_CREATE);
-  if (create >= 0)
-    H5Pset_obj_track_times(create, 0);
-  return create;
 }
 
 static bool put_array(hid_t group, const char *name, hid_t type, int rank, const hsize_t *size,
                       const void *data) {
-  hid_t space = H5Screate_simple(rank, size, NULL), create = dataset_properties();
+  hid_t space = H5Screate_simple(rank, size, NULL), create = cdem_hdf5_dataset_properties();
   hid_t set = space >= 0 && create >= 0
                   ? H5Dcreate2(group, name, type, space, H5P_DEFAULT, create, H5P_DEFAULT)
                   : (hid_t)-1;
@@ -422,7 +366,7 @@ static cdem_status put_nodes(h5_writer *h5, cdem_fault *fault) {
   const cdem_mesh *mesh = h5->model->mesh;
   const hsize_t size[2] = {(hsize_t)mesh->nodes, 3};
   hid_t group = H5Gcreate2(h5->file, "nodes", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  bool good = group >= 0 && put_text(group, "unit", "m") &&
+  bool good = group >= 0 && cdem_hdf5_put_text(group, "unit", "m") &&
               put_array(group, "tag", H5T_NATIVE_INT64, 1, size, mesh->node_tag) &&
               put_array(group, "xyz", H5T_NATIVE_DOUBLE, 2, size, mesh->xyz);
   if (group >= 0)
@@ -443,7 +387,7 @@ static bool put_names(const h5_writer *h5, int c) {
   if (c == FORM)
     for (; count < CDEM_FORM_COUNT; count++)
       name[count] = cdem_form_name((cdem_form)count);
-  return count == 0 || put_texts(h5->dataset[c], "names", name, count);
+  return count == 0 || cdem_hdf5_put_texts(h5->dataset[c], "names", name, count);
 }
 
 static bool create_dataset(h5_writer *h5, hid_t group, int c) {
@@ -454,7 +398,7 @@ static bool create_dataset(h5_writer *h5, hid_t group, int c) {
   const char *name = cdem_model_is_cosserat(h5->model) && columns[c].cosserat != NULL
                          ? columns[c].cosserat
                          : columns[c].name;
-  hid_t space = H5Screate_simple(rank, size, most), create = dataset_properties();
+  hid_t space = H5Screate_simple(rank, size, most), create = cdem_hdf5_dataset_properties();
   hid_t access = H5Pcreate(H5P_DATASET_ACCESS);
   /* Stages are chunks already: HDF5's own cache would only hold them once more. */
   bool good = space >= 0 && create >= 0 && access >= 0 && H5Pset_chunk(create, rank, chunk) >= 0 &&
@@ -469,7 +413,7 @@ static bool create_dataset(h5_writer *h5, hid_t group, int c) {
   if (space >= 0)
     H5Sclose(space);
   return h5->dataset[c] >= 0 && put_names(h5, c) &&
-         (columns[c].unit == NULL || put_text(h5->dataset[c], "unit", columns[c].unit));
+         (columns[c].unit == NULL || cdem_hdf5_put_text(h5->dataset[c], "unit", columns[c].unit));
 }
 
 static cdem_status create_tables(h5_writer *h5, cdem_fault *fault) {
@@ -507,12 +451,12 @@ static void close_file(h5_writer *h5) {
 
 static cdem_status commit(cdem_springs_writer *writer, cdem_fault *fault) {
   h5_writer *h5 = (h5_writer *)writer;
-  h5_silence before = silence();
+  cdem_hdf5_silence before = cdem_hdf5_silence_begin();
   cdem_status status = flush_table(h5, PAIRS, fault);
   if (status == CDEM_OK)
     status = flush_table(h5, EXTRA, fault);
   close_file(h5);
-  unsilence(before);
+  cdem_hdf5_silence_end(before);
   if (status == CDEM_OK && h5->target.error != 0)
     status = fail(h5, fault);
   if (status == CDEM_OK)
@@ -523,9 +467,9 @@ static cdem_status commit(cdem_springs_writer *writer, cdem_fault *fault) {
 
 static void destroy(cdem_springs_writer *writer) {
   h5_writer *h5 = (h5_writer *)writer;
-  h5_silence before = silence();
+  cdem_hdf5_silence before = cdem_hdf5_silence_begin();
   close_file(h5);
-  unsilence(before);
+  cdem_hdf5_silence_end(before);
   cdem_output_discard(&h5->output);
   for (int c = 0; c < COLUMNS; c++)
     free(h5->stage[c]);
@@ -567,9 +511,9 @@ static cdem_status open_hdf5(const char *path, const cdem_model *model,
     h5->dataset[c] = -1;
   h5->writer = (cdem_springs_writer){
       .sink = {h5, encode, write_chunk}, .commit = commit, .destroy = destroy};
-  h5_silence before = silence();
+  cdem_hdf5_silence before = cdem_hdf5_silence_begin();
   cdem_status status = open_file(h5, path, fault);
-  unsilence(before);
+  cdem_hdf5_silence_end(before);
   if (status == CDEM_OK)
     *writer = &h5->writer;
   else

@@ -1,11 +1,10 @@
 /* Springs as VTK XML (ParaView): one line cell per row of a spring set, .vtp or .vtu.
  *
- * VTK's file format: a header in XML that says how many lines there are and where each array
- * begins, then the arrays as raw bytes, each behind its length as UInt64. The number of lines is
- * known only at the end, so each column goes to a nameless scratch file of its own and is copied
- * behind the header at commit. */
+ * The header says how many lines there are, which is known only at the end, so each column goes to
+ * a nameless scratch file of its own and is copied behind the header at commit. */
 #include "io/output.h"
 #include "io/springs.h"
+#include "io/vtk_file.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -125,37 +124,15 @@ static cdem_status write_chunk(void *context, const cdem_chunk *chunk, const cde
 
 /* ---- the header: arrays are announced in the order in which they follow ---- */
 
-typedef struct {
-  FILE *stream;
-  uint64_t offset; /* of the next array, from the underscore */
-} vtk_header;
-
-static void announce(vtk_header *header, const char *type, const char *name, int components,
+static void announce(cdem_vtk_header *header, const char *type, const char *name, int components,
                      uint64_t bytes) {
-  fprintf(header->stream,
-          "        <DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" "
-          "format=\"appended\" offset=\"%" PRIu64 "\"/>\n",
-          type, name, components, header->offset);
-  header->offset += sizeof(uint64_t) + bytes;
+  cdem_vtk_announce(header, &(cdem_vtk_array){type, name, NULL, components, bytes});
 }
 
-static void announce_column(vtk_header *header, const vtk_writer *vtk, int c) {
+static void announce_column(cdem_vtk_header *header, const vtk_writer *vtk, int c) {
   /* VTK wants connectivity as one long list. */
   announce(header, columns[c].type, columns[c].name, c == CONNECTIVITY ? 1 : columns[c].components,
            (uint64_t)(vtk->lines * line_bytes(c)));
-}
-
-/* A field of texts. VTK writes them as the codes of their letters, each text ended by 0. */
-static void put_texts(FILE *stream, const char *name, const char *const *text, int count) {
-  fprintf(stream,
-          "    <Array type=\"String\" Name=\"%s\" NumberOfTuples=\"%d\" format=\"ascii\">\n     ",
-          name, count);
-  for (int i = 0; i < count; i++) {
-    for (const char *c = text[i]; *c != '\0'; c++)
-      fprintf(stream, " %d", (unsigned char)*c);
-    fputs(" 0", stream);
-  }
-  fputs("\n    </Array>\n", stream);
 }
 
 static void put_fields(FILE *stream, const cdem_model *model) {
@@ -167,9 +144,9 @@ static void put_fields(FILE *stream, const cdem_model *model) {
   for (int i = 0; i < CDEM_FORM_COUNT; i++)
     forms[i] = cdem_form_name((cdem_form)i);
   fputs("    <FieldData>\n", stream);
-  put_texts(stream, "class names", classes, CDEM_CLASS_COUNT);
-  put_texts(stream, "form names", forms, CDEM_FORM_COUNT);
-  put_texts(stream, "formula", &formula, 1);
+  cdem_vtk_texts(stream, "class names", classes, CDEM_CLASS_COUNT);
+  cdem_vtk_texts(stream, "form names", forms, CDEM_FORM_COUNT);
+  cdem_vtk_texts(stream, "formula", &formula, 1);
   fputs("    </FieldData>\n", stream);
 }
 
@@ -177,11 +154,8 @@ static void put_header(const vtk_writer *vtk, FILE *stream) {
   const cdem_mesh *mesh = vtk->model->mesh;
   const char *kind = vtk->poly ? "PolyData" : "UnstructuredGrid";
   const char *cells = vtk->poly ? "Lines" : "Cells";
-  vtk_header header = {stream, 0};
-  fprintf(stream,
-          "<?xml version=\"1.0\"?>\n<VTKFile type=\"%s\" version=\"1.0\" byte_order=\"%s\" "
-          "header_type=\"UInt64\">\n  <%s>\n",
-          kind, __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? "LittleEndian" : "BigEndian", kind);
+  cdem_vtk_header header = {stream, 0};
+  cdem_vtk_begin(stream, kind);
   put_fields(stream, vtk->model);
   fprintf(stream, "    <Piece NumberOfPoints=\"%d\" NumberOf%s=\"%" PRId64 "\">\n", mesh->nodes,
           cells, vtk->lines);
@@ -198,22 +172,15 @@ static void put_header(const vtk_writer *vtk, FILE *stream) {
           cells);
   for (int c = CONNECTIVITY + 1; c < COLUMNS; c++)
     announce_column(&header, vtk, c);
-  fprintf(stream,
-          "      </CellData>\n    </Piece>\n  </%s>\n  <AppendedData encoding=\"raw\">\n   _",
-          kind);
+  fputs("      </CellData>\n    </Piece>\n", stream);
+  cdem_vtk_begin_data(stream, kind);
 }
 
 /* ---- the arrays ---- */
 
-static cdem_status put_array(cdem_output *output, const void *data, uint64_t bytes,
-                             cdem_fault *fault) {
-  CDEM_TRY(cdem_output_write(output, &bytes, sizeof bytes, fault));
-  return data != NULL ? cdem_output_write(output, data, (size_t)bytes, fault) : CDEM_OK;
-}
-
 static cdem_status put_column(const vtk_writer *vtk, int c, char *copy, cdem_fault *fault) {
   uint64_t left = (uint64_t)(vtk->lines * line_bytes(c));
-  CDEM_TRY(put_array(vtk->output, NULL, left, fault));
+  CDEM_TRY(cdem_vtk_put(vtk->output, NULL, left, fault));
   errno = 0;
   if (fflush(vtk->scratch[c]) != 0 || fseeko(vtk->scratch[c], 0, SEEK_SET) != 0)
     return cdem_output_fail(vtk->output, errno != 0 ? errno : EIO, fault);
@@ -229,14 +196,14 @@ static cdem_status put_column(const vtk_writer *vtk, int c, char *copy, cdem_fau
 
 /* offsets 2 4 6 ..., and for .vtu the cell types. */
 static cdem_status put_offsets(const vtk_writer *vtk, char *copy, cdem_fault *fault) {
-  CDEM_TRY(put_array(vtk->output, NULL, (uint64_t)vtk->lines * 8, fault));
+  CDEM_TRY(cdem_vtk_put(vtk->output, NULL, (uint64_t)vtk->lines * 8, fault));
   for (int64_t line = 1; line <= vtk->lines; line++) {
     int64_t offset = 2 * line;
     CDEM_TRY(cdem_output_write(vtk->output, &offset, sizeof offset, fault));
   }
   if (vtk->poly)
     return CDEM_OK;
-  CDEM_TRY(put_array(vtk->output, NULL, (uint64_t)vtk->lines, fault));
+  CDEM_TRY(cdem_vtk_put(vtk->output, NULL, (uint64_t)vtk->lines, fault));
   memset(copy, LINE, COPY);
   for (int64_t left = vtk->lines; left > 0; left -= COPY)
     CDEM_TRY(cdem_output_write(vtk->output, copy, (size_t)(left < COPY ? left : COPY), fault));
@@ -245,13 +212,13 @@ static cdem_status put_offsets(const vtk_writer *vtk, char *copy, cdem_fault *fa
 
 static cdem_status put_arrays(const vtk_writer *vtk, char *copy, cdem_fault *fault) {
   const cdem_mesh *mesh = vtk->model->mesh;
-  CDEM_TRY(put_array(vtk->output, mesh->xyz, (uint64_t)mesh->nodes * 24, fault));
-  CDEM_TRY(put_array(vtk->output, mesh->node_tag, (uint64_t)mesh->nodes * 8, fault));
+  CDEM_TRY(cdem_vtk_put(vtk->output, mesh->xyz, (uint64_t)mesh->nodes * 24, fault));
+  CDEM_TRY(cdem_vtk_put(vtk->output, mesh->node_tag, (uint64_t)mesh->nodes * 8, fault));
   CDEM_TRY(put_column(vtk, CONNECTIVITY, copy, fault));
   CDEM_TRY(put_offsets(vtk, copy, fault));
   for (int c = CONNECTIVITY + 1; c < COLUMNS; c++)
     CDEM_TRY(put_column(vtk, c, copy, fault));
-  fputs("\n  </AppendedData>\n</VTKFile>\n", cdem_output_stream(vtk->output));
+  cdem_vtk_end(cdem_output_stream(vtk->output));
   return CDEM_OK;
 }
 

@@ -1,4 +1,5 @@
 /* Tables and checks as CSV and JSON. */
+#include "io/csv.h"
 #include "io/io.h"
 #include "io/text.h"
 
@@ -39,8 +40,7 @@ void cdem_json_number(FILE *stream, double value) {
     fputs("null", stream);
 }
 
-/* RFC 4180: quotes only where they are needed. */
-static void put_csv_text(FILE *stream, const char *text) {
+void cdem_csv_text(FILE *stream, const char *text) {
   if (text[strcspn(text, ",\"\r\n")] == '\0') {
     fputs(text, stream);
     return;
@@ -54,7 +54,7 @@ static void put_csv_text(FILE *stream, const char *text) {
   fputc('"', stream);
 }
 
-static void put_csv_value(FILE *stream, const cdem_value *value, cdem_column_type type) {
+void cdem_csv_value(FILE *stream, const cdem_value *value, cdem_column_type type) {
   if (value->absent)
     return;
   if (type == CDEM_COLUMN_INTEGER)
@@ -62,7 +62,7 @@ static void put_csv_value(FILE *stream, const cdem_value *value, cdem_column_typ
   else if (type == CDEM_COLUMN_REAL)
     put_real(stream, value->real);
   else
-    put_csv_text(stream, value->text);
+    cdem_csv_text(stream, value->text);
 }
 
 static void put_json_value(FILE *stream, const cdem_value *value, cdem_column_type type) {
@@ -81,12 +81,12 @@ cdem_status cdem_write_table_csv(const char *path, const cdem_table *table, cdem
   CDEM_TRY(cdem_output_open(path, &output, fault));
   FILE *stream = cdem_output_stream(output);
   for (int c = 0; c < table->columns; c++) {
-    put_csv_text(stream, table->column[c].name);
+    cdem_csv_text(stream, table->column[c].name);
     fputc(c + 1 < table->columns ? ',' : '\n', stream);
   }
   for (int64_t r = 0; r < table->rows; r++)
     for (int c = 0; c < table->columns; c++) {
-      put_csv_value(stream, cdem_table_at(table, r, c), table->column[c].type);
+      cdem_csv_value(stream, cdem_table_at(table, r, c), table->column[c].type);
       fputc(c + 1 < table->columns ? ',' : '\n', stream);
     }
   return cdem_output_commit(&output, fault);

@@ -12,7 +12,7 @@
 #include <stdbool.h>
 
 typedef enum {
-  CDEM_ARRAY_REAL,  /* double */
+  CDEM_ARRAY_REAL, /* double */
   CDEM_ARRAY_INT32,
   CDEM_ARRAY_INT64,
   CDEM_ARRAY_BYTE /* uint8_t */
@@ -32,19 +32,26 @@ typedef struct {
 } cdem_state;
 
 size_t cdem_array_size(cdem_array_type type);
-/* Lists an array without copying it; it must live as long as the state. */
+/* "real", "int32", "int64", "byte". */
+const char *cdem_array_type_name(cdem_array_type type);
+/* Lists an array without copying it; it must live as long as the state. CDEM_USAGE for a name that
+ * is taken, is the group of another one, or is no path. */
 cdem_status cdem_state_add(cdem_state *state, const char *name, cdem_array_type type, int64_t count,
                            const void *data, cdem_fault *fault);
 /* Adds a copy (for scalars, and for readers). */
 cdem_status cdem_state_add_copy(cdem_state *state, const char *name, cdem_array_type type,
                                 int64_t count, const void *data, cdem_fault *fault);
+/* Hands over an array from cdem_allocate; it stays the caller's after a failure. */
+cdem_status cdem_state_add_owned(cdem_state *state, const char *name, cdem_array_type type,
+                                 int64_t count, void *data, cdem_fault *fault);
 /* NULL when there is none. */
 const cdem_array *cdem_state_find(const cdem_state *state, const char *name);
 /* Copies an array of exactly this type and length out; CDEM_INPUT names what does not fit ("the
  * checkpoint does not belong to this case"). */
 cdem_status cdem_state_get(const cdem_state *state, const char *name, cdem_array_type type,
                            int64_t count, void *data, cdem_fault *fault);
-/* The same for an array whose length only the state knows: *data is newly allocated. */
+/* The same for an array whose length only the state knows: `data` is the address of a pointer,
+ * which receives a new array. */
 cdem_status cdem_state_take(const cdem_state *state, const char *name, cdem_array_type type,
                             int64_t *count, void *data, cdem_fault *fault);
 void cdem_state_release(cdem_state *state);

@@ -1,0 +1,67 @@
+/* The files of a run folder: frames, history, states, locks. */
+#ifndef CDEM_IO_RUN_FILES_H
+#define CDEM_IO_RUN_FILES_H
+
+#include "mesh/mesh.h"
+#include "results/frame.h"
+#include "results/map.h"
+#include "results/results.h"
+#include "results/state.h"
+
+/* ---- frames: FOLDER/SET.pvd and FOLDER/SET/SET-000012.vtu (frames_vtk.c) ---- */
+
+typedef struct cdem_frame_writer cdem_frame_writer;
+/* The folder is made where it is missing. resume_from: frames from this index on, left by a broken
+ * run, are forgotten and their files removed; 0: a new run, which forgets all. Lists of others are
+ * left alone. Each frame is on disk, and the .pvd rewritten, when the sink returns. The sink takes
+ * names of sets of letters, digits, _ and -. */
+cdem_status cdem_frame_writer_create(const char *folder, int64_t resume_from,
+                                     cdem_frame_writer **writer, cdem_fault *fault);
+cdem_frame_sink cdem_frame_writer_sink(cdem_frame_writer *writer);
+void cdem_frame_writer_destroy(cdem_frame_writer **writer);
+
+/* ---- history: a CSV that grows (history_file.c) ---- */
+
+typedef struct cdem_history_writer cdem_history_writer;
+/* The table gives the columns (its rows are not written); header `name [unit]`. keep_rows: rows of
+ * a broken run to keep; 0: a new file. CDEM_INPUT when the file has fewer or other columns. */
+cdem_status cdem_history_create(const char *path, const cdem_table *columns, int64_t keep_rows,
+                                cdem_history_writer **writer, cdem_fault *fault);
+/* Appends and flushes the last row of the table. */
+cdem_status cdem_history_append(cdem_history_writer *writer, const cdem_table *table,
+                                cdem_fault *fault);
+void cdem_history_destroy(cdem_history_writer **writer);
+/* Reads a history back (all columns real). */
+cdem_status cdem_read_history(const char *path, cdem_table *table, cdem_fault *fault);
+
+/* ---- states: HDF5, replaced as a whole (state_file.c, mesh_state.c) ---- */
+
+/* Every bit of every array comes back. A file that was cut short or changed by one byte is
+ * CDEM_INPUT: it carries its own checksum. */
+cdem_status cdem_write_state(const char *path, const cdem_state *state, cdem_fault *fault);
+cdem_status cdem_read_state(const char *path, cdem_state *state, cdem_fault *fault);
+/* A mesh as arrays "PREFIX/xyz" ... of a state (borrowed), and back. */
+cdem_status cdem_mesh_to_state(const cdem_mesh *mesh, const char *prefix, cdem_state *state,
+                               cdem_fault *fault);
+cdem_status cdem_mesh_from_state(const cdem_state *state, const char *prefix, cdem_mesh *mesh,
+                                 cdem_fault *fault);
+
+/* ---- folder and lock (folder.c) ---- */
+
+/* Makes a folder and those above it; no failure when it is there. */
+cdem_status cdem_make_folder(const char *path, cdem_fault *fault);
+/* Takes FOLDER/.lock (flock; gone with the process) in a folder that is there. CDEM_INPUT "is in
+ * use by another run (process N)". */
+typedef struct cdem_folder_lock cdem_folder_lock;
+cdem_status cdem_folder_lock_take(const char *folder, cdem_folder_lock **lock, cdem_fault *fault);
+void cdem_folder_lock_drop(cdem_folder_lock **lock);
+/* Reads a whole text file; *text newly allocated, ended by zero. CDEM_INPUT when there is a zero
+ * byte in it. */
+cdem_status cdem_read_text(const char *path, char **text, cdem_fault *fault);
+
+/* ---- maps (map_gnuplot.c) ---- */
+/* Draws FOLDER/NAME.png and .svg, keeping .gp and .dat, as cdem_write_figure does. */
+cdem_status cdem_write_map(const char *folder, const char *name, const cdem_map *map,
+                           cdem_fault *fault);
+
+#endif
