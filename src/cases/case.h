@@ -15,7 +15,7 @@
 
 #include <stdbool.h>
 
-/* Lists of the case: `item` [count]. */
+/* Lists of the case: `item` [count]; all of one layout, so that the table can serve each. */
 #define CDEM_CASE_LIST(type)                                                                       \
   struct {                                                                                         \
     int64_t count;                                                                                 \
@@ -31,15 +31,15 @@ typedef struct {
 
 /* mesh: */
 typedef struct {
-  char *file; /* as written; relative to the case file */
+  char *file;                                     /* as written; relative to the case file */
   CDEM_CASE_LIST(cdem_case_parameter) parameters; /* of a .geo file: DefineConstant */
-  double unit; /* m, one unit of the file's coordinates; 1 m */
+  double unit;                                    /* m, one unit of the file's coordinates; 1 m */
   /* or a structured grid: */
-  int shape;          /* 0: none; else 1 + index into the choices tri3 quad4 tet4 pyr5 wedge6 hex8 */
-  double count[3];    /* bricks a direction */
-  double size[3];     /* m */
-  double origin[3];   /* m */
-  double distortion;  /* 0 .. 0.25 */
+  int shape;         /* 0: none; else 1 + index into the choices tri3 quad4 tet4 pyr5 wedge6 hex8 */
+  double count[3];   /* bricks a direction */
+  double size[3];    /* m */
+  double origin[3];  /* m */
+  double distortion; /* 0 .. 0.25 */
   int64_t seed;
 } cdem_case_mesh;
 
@@ -47,8 +47,8 @@ typedef struct {
 typedef struct {
   char *name;
   cdem_material material;
-  double density;       /* kg/m^3; NaN: none (static runs without gravity) */
-  double micro_inertia; /* m^2; NaN: square of the material's length */
+  double density;         /* kg/m^3; NaN: none (static runs without gravity) */
+  double micro_inertia;   /* m^2; NaN: square of the material's length */
   cdem_case_texts groups; /* none: wherever no other material is */
 } cdem_case_material;
 
@@ -74,7 +74,7 @@ typedef struct {
 
 /* contact: */
 typedef struct {
-  bool active;
+  bool active; /* read: true where the section is there */
   double stiffness_factor, shear_ratio, normal_stiffness, shear_stiffness; /* as above */
   double friction, damping;
   double skin;    /* m; NaN: automatic */
@@ -126,7 +126,8 @@ typedef struct {
 typedef struct {
   char *name;
   char *group;
-  int quantity; /* displacement velocity force stress; force is the sum, others means over the group */
+  int quantity; /* displacement velocity force stress; force is the sum, others means over the group
+                 */
   int component; /* x y z rotation, xx yy zz yz xz xy, magnitude */
 } cdem_case_probe;
 
@@ -134,8 +135,8 @@ typedef struct {
 typedef struct {
   char *name;
   char *title;
-  char *x;           /* column */
-  cdem_case_texts y; /* columns */
+  char *x;                 /* column */
+  cdem_case_texts y;       /* columns */
   double x_scale, y_scale; /* factors before drawing (-1 turns compression positive) */
   char *x_label, *y_label;
 } cdem_case_curve;
@@ -144,30 +145,34 @@ typedef struct {
 typedef struct {
   char *name;
   char *of;
-  int take;      /* max min last mean */
-  double factor; /* multiplies the column before */
+  int take;                    /* max min last mean */
+  double factor;               /* multiplies the column before */
   double reference, tolerance; /* expected value and relative tolerance; NaN: none */
 } cdem_case_key_result;
 
-typedef enum { CDEM_ANALYSIS_DYNAMIC, CDEM_ANALYSIS_RELAXATION, CDEM_ANALYSIS_STATIC } cdem_analysis;
+typedef enum {
+  CDEM_ANALYSIS_DYNAMIC,
+  CDEM_ANALYSIS_RELAXATION,
+  CDEM_ANALYSIS_STATIC
+} cdem_analysis;
 
 typedef struct {
   char *title;
-  int analysis;         /* cdem_analysis */
-  int plane;            /* strain stress */
-  double thickness;     /* m */
-  bool cosserat;        /* informational: follows from the materials */
-  double end;           /* s */
-  double step, safety;  /* s; NaN: automatic */
-  double mass_damping, local_damping;
-  double tolerance;     /* unbalanced-force ratio of a relaxation */
-  int64_t most_steps;   /* of a relaxation */
+  int analysis;        /* cdem_analysis */
+  int plane;           /* strain stress */
+  double thickness;    /* m */
+  bool cosserat;       /* no key: whether the materials are Cosserat */
+  double end;          /* s; static: the time at which loads and supports are taken, 0 */
+  double step, safety; /* s; NaN: automatic */
+  double mass_damping, local_damping; /* 1/s; 1. Read: local 0.8 in a relaxation unless given */
+  double tolerance;                   /* unbalanced-force ratio of a relaxation */
+  int64_t most_steps;                 /* of a relaxation */
   double gravity[3];
-  cdem_case_texts quiet; /* groups of faces */
+  cdem_case_texts quiet;                               /* groups of faces */
   double history_every, frame_every, checkpoint_every; /* s of the run; NaN: end/400, end/20, 5 min
                                                           of wall time */
-  char *stop_when;       /* name of a history column: the run ends when ... */
-  double stop_below;     /* ... its size falls below this fraction of its peak (after the peak) */
+  char *stop_when;   /* name of a history column: the run ends when ... */
+  double stop_below; /* ... its size falls below this fraction of its peak (after the peak) */
   cdem_case_mesh mesh;
   CDEM_CASE_LIST(cdem_case_material) materials;
   cdem_case_blocks blocks;
@@ -191,16 +196,18 @@ typedef struct {
   cdem_case_places *places;
 } cdem_case;
 
+/* Safe on a zeroed case and twice. */
 void cdem_case_release(cdem_case *cases);
+
+/* Whether the file or an override gave this key ("mesh.size", "loads[0]"). */
+bool cdem_case_given(const cdem_case *cases, const char *key);
 
 /* A failure that has to do with the value at `key` ("supports[1].group", "step"): the message gets
  * file:line:column and the line with a caret. A key that was not given: the nearest section above
  * it. */
-__attribute__((format(printf, 5, 6))) cdem_status cdem_case_fail(const cdem_case *cases,
-                                                                 const char *key,
-                                                                 cdem_status status,
-                                                                 cdem_fault *fault,
-                                                                 const char *format, ...);
+__attribute__((format(printf, 5, 6))) cdem_status
+cdem_case_fail(const cdem_case *cases, const char *key, cdem_status status, cdem_fault *fault,
+               const char *format, ...);
 /* The same for a message another room made. */
 cdem_status cdem_case_blame(const cdem_case *cases, const char *key, cdem_fault *fault);
 

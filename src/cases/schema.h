@@ -23,7 +23,8 @@ typedef enum {
   CDEM_KEY_NAMED       /* the same from a map of names; `char *name` is the first member */
 } cdem_key_kind;
 
-/* Does the quantity belong to the grains (stays when a domain is coarse-grained) or to the domain? */
+/* Does the quantity belong to the grains (stays when a domain is coarse-grained) or to the domain?
+ */
 typedef enum { CDEM_TAG_NONE, CDEM_TAG_GRAIN, CDEM_TAG_DOMAIN } cdem_scale_tag;
 
 typedef struct cdem_case_section cdem_case_section;
@@ -34,17 +35,22 @@ typedef struct {
   size_t offset;            /* in the section's struct */
   cdem_dimension dimension; /* of numbers, vectors and series (rotations are dimensionless) */
   bool required;
-  double fallback; /* of a number or integer; NaN: none */
-  double least, most;            /* range; least == most: none */
-  bool above;                    /* least itself is not allowed */
-  int length;                    /* of a vector */
-  int fewest;                    /* numbers a vector must have; the rest stay 0 */
-  size_t given;                  /* of a series: offset of its bool */
-  const char *const *choice;     /* ended by NULL; the first is the default */
+  double fallback;           /* of a number or integer; NaN: none */
+  double least, most;        /* range; least == most: none */
+  bool above;                /* least itself is not allowed */
+  bool below;                /* most itself is not allowed */
+  int length;                /* of a vector */
+  int fewest;                /* numbers a vector must have; the rest stay 0 */
+  size_t given;              /* of a series: offset of its bool */
+  const char *const *choice; /* ended by NULL; the first is the default */
   const cdem_case_section *section;
+  bool rotates;            /* of components: there may be a `rotation` ... */
+  cdem_dimension rotation; /* ... of this dimension */
   cdem_scale_tag tag;
-  const char *help;    /* one line */
-  const char *example; /* how it is written: "40 GPa" */
+  const char *otherwise; /* what holds without the key, in words, where the fallback does not say it
+                          */
+  const char *help;      /* one line */
+  const char *example;   /* how it is written: "40 GPa" */
 } cdem_case_key;
 
 struct cdem_case_section {
@@ -52,18 +58,30 @@ struct cdem_case_section {
   size_t size;      /* of the struct */
   int keys;
   const cdem_case_key *key;
+  bool named;            /* reached through CDEM_KEY_NAMED: `char *name` is the first member */
+  const char *shorthand; /* the key that a plain text in place of the map means; NULL: none */
   const char *help;
 };
+
+enum { CDEM_CASE_PATH = 256 }; /* bytes of the longest path of a key, "materials.NAME.young" */
 
 /* The top of every case. */
 const cdem_case_section *cdem_case_root(void);
 
-/* Walks all sections depth first: visit(context, path, section, key) with path "materials.NAME.young". */
+/* The key of a section; NULL when there is none. */
+const cdem_case_key *cdem_case_key_find(const cdem_case_section *section, const char *key);
+
+/* Walks all sections depth first: visit(context, path, key) with path "materials.NAME.young",
+ * "interfaces[].tension". The keys of material models are visited once each, after `model` and the
+ * axes; `key` is good for the time of the call. */
 void cdem_case_walk(void (*visit)(void *context, const char *path, const cdem_case_key *key),
                     void *context);
 
 /* Fills a struct with the defaults of its section. */
 cdem_status cdem_case_defaults(const cdem_case_section *section, void *values, cdem_fault *fault);
+
+/* Releases what the struct of a section owns and zeroes it. */
+void cdem_case_values_release(const cdem_case_section *section, void *values);
 
 /* Checks that join several keys (a mesh file or a grid, one load a load, a step for ...). Adds to
  * nothing: the first failure, with its place. */

@@ -30,6 +30,14 @@ typedef struct {
 cdem_status cdem_read_mesh(const char *path, cdem_mesh *mesh, const cdem_warnings *warnings,
                            cdem_fault *fault);
 
+/* The same with numbers for a .geo file: name [parameters] are declared there by
+ * `DefineConstant[ h = 0.1 ];` (with or without attributes), and value [parameters] replace the
+ * declared ones. CDEM_INPUT: a name that the file does not declare (the message lists those it
+ * does), parameters for any other format. */
+cdem_status cdem_read_mesh_with(const char *path, int parameters, const char *const *name,
+                                const double *value, cdem_mesh *mesh, const cdem_warnings *warnings,
+                                cdem_fault *fault);
+
 /* ---- material files in (material_file.c) ---- */
 
 /* A material file: one material at top level, or `materials:` by name, `groups:` group -> material,
@@ -102,7 +110,7 @@ cdem_status cdem_write_checks_json(FILE *stream, const cdem_check_list *list, cd
 void cdem_json_text(FILE *stream, const char *text);
 void cdem_json_number(FILE *stream, double value);
 
-/* ---- figures out (gnuplot.c) ---- */
+/* ---- figures out (figure.c) ---- */
 
 /* Draws FOLDER/NAME.png and .svg (the folder is made where it is missing) with gnuplot (child
  * process) and keeps NAME.gp and NAME.dat beside them. CDEM_FILE with the remedy when gnuplot is

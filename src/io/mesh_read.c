@@ -1,7 +1,9 @@
 #include "io/mesh_build.h"
+#include "io/mesh_parameters.h"
 
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 
 typedef enum { MSH, INP, GEO, STEP, FORMATS } mesh_format;
 
@@ -56,8 +58,23 @@ static cdem_status check_msh40(const cdem_text *text, cdem_fault *fault) {
   return CDEM_OK;
 }
 
-static cdem_status read_text(const char *path, mesh_format format, cdem_mesh_builder *builder,
+static cdem_status read_with(const char *path, const cdem_mesh_parameters *parameters,
+                             cdem_mesh_builder *builder, cdem_fault *fault) {
+  char wrapper[CDEM_WRAPPER_PATH];
+  if (parameters->count == 0)
+    return cdem_read_geometry(path, builder, fault);
+  CDEM_TRY(cdem_mesh_parameters_wrap(parameters, path, wrapper, fault));
+  cdem_status status = cdem_read_geometry(wrapper, builder, fault);
+  unlink(wrapper);
+  return status;
+}
+
+static cdem_status read_text(const char *path, mesh_format format,
+                             const cdem_mesh_parameters *parameters, cdem_mesh_builder *builder,
                              cdem_fault *fault) {
+  CDEM_REQUIRE(format == GEO || parameters->count == 0, fault, CDEM_INPUT,
+               "parameter '%s' has no meaning here: only .geo files have parameters",
+               parameters->name[0]);
   cdem_text text;
   CDEM_TRY(cdem_text_open(path, &text, fault));
   cdem_status status;
@@ -70,20 +87,29 @@ static cdem_status read_text(const char *path, mesh_format format, cdem_mesh_bui
     status = cdem_read_inp(&text, builder, fault);
   else
     status = check_geometry(&text, format, fault);
+  if (status == CDEM_OK && parameters->count > 0)
+    status = cdem_mesh_parameters_check(parameters, &text, fault);
   cdem_text_release(&text);
   if (status == CDEM_OK && by_gmsh)
-    status = cdem_read_geometry(path, builder, fault);
+    status = read_with(path, parameters, builder, fault);
   return status;
 }
 
 cdem_status cdem_read_mesh(const char *path, cdem_mesh *mesh, const cdem_warnings *warnings,
                            cdem_fault *fault) {
+  return cdem_read_mesh_with(path, 0, NULL, NULL, mesh, warnings, fault);
+}
+
+cdem_status cdem_read_mesh_with(const char *path, int parameters, const char *const *name,
+                                const double *value, cdem_mesh *mesh, const cdem_warnings *warnings,
+                                cdem_fault *fault) {
   cdem_mesh built = {0};
   cdem_mesh_builder builder = {.warnings = warnings};
   mesh_format format = format_of(path);
   cdem_status status =
       format != FORMATS
-          ? read_text(path, format, &builder, fault)
+          ? read_text(path, format, &(cdem_mesh_parameters){parameters, name, value}, &builder,
+                      fault)
           : cdem_fail(fault, CDEM_INPUT,
                       "its ending is none of .msh .geo .step .stp .inp, which tell the format");
   if (status == CDEM_OK)

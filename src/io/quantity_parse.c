@@ -6,6 +6,7 @@
 #include <ctype.h>
 #include <locale.h>
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 #include <udunits2.h>
 
@@ -102,7 +103,10 @@ cdem_status cdem_units_parse(cdem_units *units, const char *text, cdem_dimension
                "'%s' is not a number", text);
   CDEM_REQUIRE(isfinite(number), fault, CDEM_INPUT, "'%s' is too large for a number", text);
   end += strspn(end, " \t");
-  CDEM_REQUIRE(!isdigit((unsigned char)*end) && *end != '.' && *end != ',', fault, CDEM_INPUT,
+  /* "200 1/s" is a rate; "5 1/2" would be another number than it looks like. */
+  bool rate = strncmp(end, "1/", 2) == 0 && isalpha((unsigned char)end[2]);
+  CDEM_REQUIRE(rate || (!isdigit((unsigned char)*end) && *end != '.' && *end != ','), fault,
+               CDEM_INPUT,
                "'%s' is not one number; write thousands without separators and decimals with a "
                "point",
                text);

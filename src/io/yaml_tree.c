@@ -1,5 +1,6 @@
 #include "io/yaml_tree.h"
 
+#include "base/caret.h"
 #include "base/suggest.h"
 
 #include <errno.h>
@@ -11,52 +12,31 @@
 enum {
   MAX_BYTES = 16 << 20, /* an input file written by hand is far below */
   MAX_DEPTH = 16,
-  MAX_SHOWN = 5, /* errors whose text is kept */
-  SHOWN_WIDTH = 72
+  MAX_SHOWN = 5 /* errors whose text is kept */
 };
 
 /* ---- errors ---- */
 
-/* The source line of a mark and a caret under it; a long line is shown from near the mark on. */
-static void put_caret(const cdem_yaml *yaml, int line, int column, int width, char *out,
-                      size_t room) {
-  const char *begin = yaml->source;
-  for (int l = 1; l < line && begin != NULL; l++) {
-    begin = strchr(begin, '\n');
-    begin = begin != NULL ? begin + 1 : NULL;
-  }
-  if (begin == NULL || room < 2 * SHOWN_WIDTH + 16)
-    return;
-  int skipped = 0; /* characters, not bytes */
-  while (column - skipped > SHOWN_WIDTH / 2 && *begin != '\0' && *begin != '\n') {
-    begin++;
-    while ((*begin & 0xc0) == 0x80)
-      begin++;
-    skipped++;
-  }
-  size_t length = strcspn(begin, "\r\n");
-  length = length > SHOWN_WIDTH ? SHOWN_WIDTH : length;
-  int used = snprintf(out, room, "\n  %.*s\n  %*s^", (int)length, begin, column - skipped - 1, "");
-  for (char *c = out + 3; *c != '\0' && *c != '\n'; c++)
-    if (*c == '\t')
-      *c = ' ';
-  for (int i = 1; i < width && column - skipped + i <= SHOWN_WIDTH; i++)
-    out[used++] = '~';
-  out[used] = '\0';
-}
-
-static void add_error(cdem_yaml *yaml, int line, int column, int width, const char *message) {
+static void add_error(cdem_yaml *yaml, const cdem_yaml_node *at, const char *message) {
   yaml->errors++;
   if (yaml->errors > MAX_SHOWN)
     return;
   char *out = yaml->report.message;
   size_t used = strlen(out), room = sizeof yaml->report.message - used;
   char text[CDEM_FAULT_LENGTH];
-  int length = snprintf(text, sizeof text, "%s%s:%d:%d: %s", used > 0 ? "\n" : "", yaml->path, line,
-                        column, message);
+  const char *line_end = used > 0 ? "\n" : "";
+  int length;
+  if (at->origin > 0)
+    length = snprintf(text, sizeof text, "%soverride '%.200s': %s", line_end,
+                      yaml->override[at->origin - 1], message);
+  else
+    length = snprintf(text, sizeof text, "%s%s:%d:%d: %s", line_end, yaml->path, at->line,
+                      at->column, message);
   if (length < 0 || (size_t)length >= sizeof text)
     length = sizeof text - 1;
-  put_caret(yaml, line, column, width, text + length, sizeof text - (size_t)length);
+  if (at->origin == 0)
+    cdem_caret_put(yaml->source, at->line, at->column, at->width, text + length,
+                   sizeof text - (size_t)length);
   if (strlen(text) < room || used == 0)
     snprintf(out + used, room, "%s", text);
 }
@@ -67,7 +47,16 @@ void cdem_yaml_error(cdem_yaml *yaml, const cdem_yaml_node *at, const char *form
   va_start(arguments, format);
   vsnprintf(message, sizeof message, format, arguments);
   va_end(arguments);
-  add_error(yaml, at->line, at->column, at->width, message);
+  add_error(yaml, at, message);
+}
+
+void cdem_yaml_override_error(cdem_yaml *yaml, int index, const char *format, ...) {
+  char message[CDEM_FAULT_LENGTH / 2];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(message, sizeof message, format, arguments);
+  va_end(arguments);
+  add_error(yaml, &(cdem_yaml_node){.origin = index + 1}, message);
 }
 
 void cdem_yaml_unknown(cdem_yaml *yaml, const cdem_yaml_node *at, const char *what,
@@ -108,7 +97,7 @@ const cdem_yaml_node *cdem_yaml_find(const cdem_yaml *yaml, const cdem_yaml_node
 static cdem_status add_node(cdem_yaml *yaml, cdem_yaml_kind kind, const yaml_event_t *event,
                             int32_t *id, cdem_fault *fault) {
   CDEM_TRY(cdem_grow(&yaml->node, &yaml->capacity, yaml->nodes + 1, sizeof *yaml->node, fault));
-  cdem_yaml_node node = {.kind = kind, .width = 1, .child = -1, .next = -1};
+  cdem_yaml_node node = {.kind = kind, .width = 1, .child = -1, .next = -1, .origin = yaml->origin};
   node.line = (int)event->start_mark.line + 1;
   node.column = (int)event->start_mark.column + 1;
   if (event->start_mark.line == event->end_mark.line)
@@ -127,7 +116,8 @@ static cdem_status add_node(cdem_yaml *yaml, cdem_yaml_kind kind, const yaml_eve
 static void refuse_magic(cdem_yaml *yaml, const yaml_event_t *event) {
   const cdem_yaml_node here = {.line = (int)event->start_mark.line + 1,
                                .column = (int)event->start_mark.column + 1,
-                               .width = 1};
+                               .width = 1,
+                               .origin = yaml->origin};
   const yaml_char_t *anchor = NULL, *tag = NULL;
   switch (event->type) {
   case YAML_ALIAS_EVENT:
@@ -182,8 +172,11 @@ static cdem_status next_event(cdem_yaml *yaml, yaml_parser_t *parser, yaml_event
                "out of memory while reading '%s'", yaml->path);
   /* A reader error has no mark, only a byte. */
   const yaml_mark_t mark = parser->problem_mark;
-  add_error(yaml, (int)mark.line + 1, (int)mark.column + 1, 1,
-            parser->problem != NULL ? parser->problem : "is not YAML");
+  const cdem_yaml_node here = {.line = (int)mark.line + 1,
+                               .column = (int)mark.column + 1,
+                               .width = 1,
+                               .origin = yaml->origin};
+  add_error(yaml, &here, parser->problem != NULL ? parser->problem : "is not YAML");
   return cdem_yaml_finish(yaml, fault);
 }
 
@@ -245,8 +238,9 @@ static cdem_status build_tree(cdem_yaml *yaml, yaml_parser_t *parser, cdem_fault
     end = event.type == YAML_STREAM_END_EVENT;
     cdem_status status = CDEM_OK;
     if (event.type == YAML_DOCUMENT_START_EVENT && ++documents > 1) {
-      add_error(yaml, (int)event.start_mark.line + 1, 1, 3,
-                "a second document begins here; a file holds one");
+      const cdem_yaml_node here = {
+          .line = (int)event.start_mark.line + 1, .column = 1, .width = 3, .origin = yaml->origin};
+      add_error(yaml, &here, "a second document begins here; a file holds one");
       end = true;
     } else {
       status = take_event(yaml, &place, &event, fault);
@@ -254,7 +248,28 @@ static cdem_status build_tree(cdem_yaml *yaml, yaml_parser_t *parser, cdem_fault
     yaml_event_delete(&event);
     CDEM_TRY(status);
   }
-  CDEM_REQUIRE(yaml->nodes > 0, fault, CDEM_INPUT, "cannot read '%s': it is empty", yaml->path);
+  return CDEM_OK;
+}
+
+static cdem_status parse(cdem_yaml *yaml, const char *text, size_t bytes, cdem_fault *fault) {
+  yaml_parser_t parser;
+  CDEM_REQUIRE(yaml_parser_initialize(&parser), fault, CDEM_MEMORY,
+               "out of memory while reading '%s'", yaml->path);
+  yaml_parser_set_input_string(&parser, (const unsigned char *)text, bytes);
+  cdem_status status = build_tree(yaml, &parser, fault);
+  yaml_parser_delete(&parser);
+  return status;
+}
+
+cdem_status cdem_yaml_read_override(cdem_yaml *yaml, int index, size_t from, int32_t *root,
+                                    cdem_fault *fault) {
+  const char *text = yaml->override[index] + from;
+  int64_t first = yaml->nodes;
+  yaml->origin = index + 1;
+  cdem_status status = parse(yaml, text, strlen(text), fault);
+  yaml->origin = 0;
+  CDEM_TRY(status);
+  *root = yaml->nodes > first ? (int32_t)first : -1;
   return CDEM_OK;
 }
 
@@ -302,11 +317,7 @@ cdem_status cdem_yaml_read(const char *path, cdem_yaml *yaml, cdem_fault *fault)
   if (yaml->path == NULL)
     return CDEM_MEMORY;
   CDEM_TRY(read_source(yaml, fault));
-  yaml_parser_t parser;
-  CDEM_REQUIRE(yaml_parser_initialize(&parser), fault, CDEM_MEMORY,
-               "out of memory while reading '%s'", path);
-  yaml_parser_set_input_string(&parser, (const unsigned char *)yaml->source, (size_t)yaml->bytes);
-  cdem_status status = build_tree(yaml, &parser, fault);
-  yaml_parser_delete(&parser);
-  return status;
+  CDEM_TRY(parse(yaml, yaml->source, (size_t)yaml->bytes, fault));
+  CDEM_REQUIRE(yaml->nodes > 0, fault, CDEM_INPUT, "cannot read '%s': it is empty", path);
+  return CDEM_OK;
 }

@@ -25,6 +25,7 @@ typedef struct {
   int line, column, width; /* from 1; characters to underline */
   int32_t child, next;     /* first child, next sibling; -1: none */
   int32_t children;
+  int origin; /* 0: the file; else 1 + the override it came from */
 } cdem_yaml_node;
 
 typedef struct {
@@ -35,6 +36,9 @@ typedef struct {
   int64_t nodes, capacity;
   int errors;
   cdem_fault report; /* the errors so far */
+  int origin;        /* of the text being read */
+  int overrides;
+  const char *const *override; /* [overrides] borrowed, for messages */
 } cdem_yaml;
 
 /* CDEM_FILE: cannot be read. CDEM_INPUT: no YAML at all. Errors that leave a tree behind are
@@ -42,12 +46,20 @@ typedef struct {
 cdem_status cdem_yaml_read(const char *path, cdem_yaml *yaml, cdem_fault *fault);
 void cdem_yaml_release(cdem_yaml *yaml);
 
+/* Reads the value of an override (yaml->override[index] from byte `from` on) into the same tree;
+ * its root belongs to nothing yet. Errors name the override instead of a place. */
+cdem_status cdem_yaml_read_override(cdem_yaml *yaml, int index, size_t from, int32_t *root,
+                                    cdem_fault *fault);
+
 /* Adds an error at a node. */
 __attribute__((format(printf, 3, 4))) void
 cdem_yaml_error(cdem_yaml *yaml, const cdem_yaml_node *at, const char *format, ...);
 /* Adds "unknown WHAT 'text'" with the nearest candidate. */
 void cdem_yaml_unknown(cdem_yaml *yaml, const cdem_yaml_node *at, const char *what,
                        const char *const *candidates, int count);
+/* Adds an error of an override as a whole. */
+__attribute__((format(printf, 3, 4))) void cdem_yaml_override_error(cdem_yaml *yaml, int index,
+                                                                    const char *format, ...);
 /* CDEM_INPUT with all errors, if there are any. */
 cdem_status cdem_yaml_finish(const cdem_yaml *yaml, cdem_fault *fault);
 
@@ -65,6 +77,18 @@ static inline const cdem_yaml_node *cdem_yaml_next(const cdem_yaml *yaml,
 /* The value of a key of a map, NULL when it is not there. */
 const cdem_yaml_node *cdem_yaml_find(const cdem_yaml *yaml, const cdem_yaml_node *map,
                                      const char *key);
+/* ---- changing the tree (yaml_edit.c); node pointers do not outlive these calls ---- */
+
+/* A new node that belongs to nothing, at the place of node `like`, from override `origin` - 1. */
+cdem_status cdem_yaml_new(cdem_yaml *yaml, cdem_yaml_kind kind, const char *text, int32_t like,
+                          int origin, int32_t *id, cdem_fault *fault);
+/* Appends a child. */
+void cdem_yaml_append(cdem_yaml *yaml, int32_t parent, int32_t child);
+/* Puts a node where the child number `position` (from 0) was. */
+void cdem_yaml_replace(cdem_yaml *yaml, int32_t parent, int32_t position, int32_t child);
+/* The tree as YAML text (comments are gone), newly allocated: read again it is the same tree. */
+cdem_status cdem_yaml_text(const cdem_yaml *yaml, char **text, cdem_fault *fault);
+
 /* "a text", "a list", "a map" for messages. */
 const char *cdem_yaml_kind_name(cdem_yaml_kind kind);
 

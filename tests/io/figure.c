@@ -185,6 +185,25 @@ static void lack_of_memory_leaves_no_figure(void **state) {
   assert_true(failures > 8);
 }
 
+/* 2 ms and 200 kN: both axes in numbers divided by a power of ten that is written once. */
+static void large_and_small_numbers_share_a_power(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  const double at[2] = {0, 2e-3}, load[2] = {-1e5, 2e5};
+  const cdem_curve curve = {NULL, at, load, 2, 0};
+  const cdem_panel panel = {"load", "time, s", "force, N", 1, &curve, -1e5, 2e5};
+  const cdem_figure figure = {NULL, 1, 1, &panel};
+  check_ok(cdem_write_figure(in_scratch("power"), "f", &figure, &fault));
+  char *text = read_whole(in_scratch("power/f.gp"), NULL);
+  static const char *const parts[] = {"set xrange [0:2]\n", "set yrange [-100:200]\n",
+                                      "'×10^{−3}' at graph 1,", "'×10^{3}' at graph -0.02,",
+                                      "using ($1*1e3):($2*1e-3) with lines"};
+  for (int i = 0; i < 5; i++)
+    if (strstr(text, parts[i]) == NULL)
+      fail_msg("'%s' is not in the script", parts[i]);
+  free(text);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(figures_are_drawn),
@@ -193,6 +212,7 @@ int main(void) {
       cmocka_unit_test(gnuplot_can_fail),
       cmocka_unit_test(places_that_cannot_be_written),
       cmocka_unit_test(lack_of_memory_leaves_no_figure),
+      cmocka_unit_test(large_and_small_numbers_share_a_power),
   };
   return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }

@@ -1,4 +1,5 @@
 /* A comma locale changes no file and no number read: every writer and reader of the room. */
+#include "io/run_files.h"
 #include "io/support.h"
 #include "io/text.h"
 
@@ -99,12 +100,32 @@ static void tables(void **state) {
   cdem_table_release(&table);
 }
 
+static void histories(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  cdem_table table = {0}, back;
+  cdem_history_writer *writer;
+  to_comma();
+  check_ok(cdem_table_add_column(&table, "x", CDEM_COLUMN_REAL, "m", &fault));
+  check_ok(cdem_history_create(in_scratch("h.csv"), &table, 0, &writer, &fault));
+  check_ok(cdem_table_add_row(&table, &fault));
+  cdem_table_set_real(&table, 0, 0.1);
+  check_ok(cdem_history_append(writer, &table, &fault));
+  cdem_history_destroy(&writer);
+  char *text = read_whole(in_scratch("h.csv"), NULL);
+  assert_string_equal(text, "x [m]\n0.10000000000000001\n");
+  free(text);
+  check_ok(cdem_read_history(in_scratch("h.csv"), &back, &fault));
+  assert_true(cdem_table_at(&back, 0, 0)->real == 0.1);
+  cdem_table_release(&back);
+  cdem_table_release(&table);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test_teardown(numbers, to_c),
-      cmocka_unit_test_teardown(quantities, to_c),
-      cmocka_unit_test_teardown(springs, to_c),
-      cmocka_unit_test_teardown(tables, to_c),
+      cmocka_unit_test_teardown(numbers, to_c),   cmocka_unit_test_teardown(quantities, to_c),
+      cmocka_unit_test_teardown(springs, to_c),   cmocka_unit_test_teardown(tables, to_c),
+      cmocka_unit_test_teardown(histories, to_c),
   };
   return cmocka_run_group_tests(tests, setup, scratch_remove);
 }

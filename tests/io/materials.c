@@ -42,6 +42,17 @@ static void quantities_become_si(void **state) {
   }
 }
 
+static void rates_may_be_written_as_fractions(void **state) {
+  (void)state;
+  static const char *const texts[] = {"200 1/s", "200 s-1", "0.2 1/ms", "200 Hz", "200"};
+  for (int i = 0; i < 5; i++) {
+    cdem_fault fault = {0};
+    double value = NAN;
+    check_ok(cdem_parse_quantity(texts[i], (cdem_dimension){0, -1, 0}, &value, &fault));
+    check_near(value, 200, 1e-15, 0);
+  }
+}
+
 static void quantities_that_are_none(void **state) {
   (void)state;
   static const struct {
@@ -64,6 +75,7 @@ static void quantities_that_are_none(void **state) {
       {"1e305 GPa", "is too large"},
       {"40,5 GPa", "decimals with a point"},
       {"1 000", "without separators"},
+      {"5 1/2", "without separators"},
   };
   for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
     cdem_fault fault = {0};
@@ -325,6 +337,7 @@ static void lack_of_memory(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(quantities_become_si),
+      cmocka_unit_test(rates_may_be_written_as_fractions),
       cmocka_unit_test(quantities_that_are_none),
       cmocka_unit_test(one_material),
       cmocka_unit_test(optional_keys_have_their_fallback),

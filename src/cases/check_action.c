@@ -1,0 +1,181 @@
+/* Checks of what acts on the body and of what is kept of a run. */
+#include "cases/check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char *const component_names[4] = {"x", "y", "z", "rotation"};
+
+static int count_given(const cdem_case_components *components) {
+  int count = 0;
+  for (int c = 0; c < 4; c++)
+    count += components->given[c];
+  return count;
+}
+
+static cdem_status check_rotation(const cdem_case *cases, const cdem_case_components *components,
+                                  const char *section, int64_t index, const char *name,
+                                  cdem_fault *fault) {
+  char path[CDEM_CASE_PATH], key[CDEM_CASE_PATH];
+  if (!components->given[3] || cases->values.cosserat)
+    return CDEM_OK;
+  snprintf(path, sizeof path, "%s.rotation", name);
+  return cdem_case_fail(cases, cdem_case_item_key(key, section, index, path), CDEM_INPUT, fault,
+                        "'rotation' is a degree of freedom of Cosserat materials only; leave it "
+                        "out");
+}
+
+/* ---- supports ---- */
+
+cdem_status cdem_case_check_supports(const cdem_case *cases, cdem_fault *fault) {
+  const cdem_case_values *v = &cases->values;
+  char key[CDEM_CASE_PATH], name[32];
+  for (int64_t i = 0; i < v->supports.count; i++) {
+    const cdem_case_support *support = &v->supports.item[i];
+    if (count_given(&support->displacement) + count_given(&support->velocity) == 0)
+      return cdem_case_fail(cases, cdem_case_item_key(key, "supports", i, ""), CDEM_INPUT, fault,
+                            "a support needs a component of 'displacement' or 'velocity'");
+    for (int c = 0; c < 4; c++) {
+      snprintf(name, sizeof name, "velocity.%s", component_names[c]);
+      cdem_case_item_key(key, "supports", i, name);
+      if (support->displacement.given[c] && support->velocity.given[c])
+        return cdem_case_fail(cases, key, CDEM_INPUT, fault,
+                              "'displacement' and 'velocity' cannot both prescribe '%s'",
+                              component_names[c]);
+      if (support->velocity.given[c] && v->analysis == CDEM_ANALYSIS_STATIC)
+        return cdem_case_fail(
+            cases, key, CDEM_INPUT, fault,
+            "'velocity' has no meaning in a static run; prescribe 'displacement'");
+    }
+    CDEM_TRY(check_rotation(cases, &support->displacement, "supports", i, "displacement", fault));
+    CDEM_TRY(check_rotation(cases, &support->velocity, "supports", i, "velocity", fault));
+  }
+  return CDEM_OK;
+}
+
+/* ---- loads ---- */
+
+static cdem_status check_kirsch(const cdem_case *cases, int64_t i, cdem_fault *fault) {
+  const cdem_case_load *load = &cases->values.loads.item[i];
+  char key[CDEM_CASE_PATH], center[CDEM_CASE_PATH];
+  bool tension = !isnan(load->kirsch_tension), radius = !isnan(load->kirsch_radius);
+  if (tension && !radius)
+    return cdem_case_fail(cases, cdem_case_item_key(key, "loads", i, "kirsch_tension"), CDEM_INPUT,
+                          fault, "'kirsch_tension' needs 'kirsch_radius' beside it");
+  cdem_case_item_key(key, "loads", i, "kirsch_radius");
+  cdem_case_item_key(center, "loads", i, "kirsch_center");
+  if (!tension && (radius || cdem_case_given(cases, center)))
+    return cdem_case_fail(cases, radius ? key : center, CDEM_INPUT, fault,
+                          "'%s' has a meaning beside 'kirsch_tension' only",
+                          radius ? "kirsch_radius" : "kirsch_center");
+  return CDEM_OK;
+}
+
+cdem_status cdem_case_check_loads(const cdem_case *cases, cdem_fault *fault) {
+  const cdem_case_values *v = &cases->values;
+  char key[CDEM_CASE_PATH];
+  for (int64_t i = 0; i < v->loads.count; i++) {
+    const cdem_case_load *load = &v->loads.item[i];
+    int kinds = (count_given(&load->force) > 0) + (count_given(&load->traction) > 0) +
+                load->has_pressure + !isnan(load->kirsch_tension);
+    CDEM_TRY(check_kirsch(cases, i, fault));
+    if (kinds != 1)
+      return cdem_case_fail(cases, cdem_case_item_key(key, "loads", i, ""), CDEM_INPUT, fault,
+                            "a load needs exactly one of 'force', 'traction', 'pressure', "
+                            "'kirsch_tension', not %d; write one entry for each",
+                            kinds);
+    CDEM_TRY(check_rotation(cases, &load->force, "loads", i, "force", fault));
+  }
+  return CDEM_OK;
+}
+
+/* ---- plates and initial velocities ---- */
+
+static double size_of(const double v[3]) {
+  return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+cdem_status cdem_case_check_plates(const cdem_case *cases, cdem_fault *fault) {
+  const cdem_case_values *v = &cases->values;
+  char key[CDEM_CASE_PATH], prefix[CDEM_CASE_PATH];
+  for (int64_t i = 0; i < v->plates.count; i++) {
+    const cdem_case_plate *plate = &v->plates.item[i];
+    cdem_case_named_key(prefix, "plates", plate->name, "");
+    CDEM_TRY(
+        cdem_case_check_exclusive(cases, prefix, "stiffness_factor", "normal_stiffness", fault));
+    if (!(size_of(plate->normal) > 0.0))
+      return cdem_case_fail(cases, cdem_case_named_key(key, "plates", plate->name, "normal"),
+                            CDEM_INPUT, fault, "the normal of a plate must not be zero");
+    double cross[3], size = size_of(plate->normal) * size_of(plate->axis);
+    cdem_cross3(plate->normal, plate->axis, cross);
+    cdem_case_named_key(key, "plates", plate->name, "axis");
+    /* a sine of 1e-6 keeps ten digits of the direction in the face */
+    if (cdem_case_given(cases, key) && !(size_of(cross) > 1e-6 * size))
+      return cdem_case_fail(cases, key, CDEM_INPUT, fault,
+                            "the axis of a plate must not be zero or along its normal");
+  }
+  return CDEM_OK;
+}
+
+cdem_status cdem_case_check_initial(const cdem_case *cases, cdem_fault *fault) {
+  char key[CDEM_CASE_PATH], spin[CDEM_CASE_PATH];
+  for (int64_t i = 0; i < cases->values.initial.count; i++) {
+    cdem_case_item_key(spin, "initial", i, "spin");
+    cdem_case_item_key(key, "initial", i, "velocity");
+    if (!cdem_case_given(cases, key) && !cdem_case_given(cases, spin))
+      return cdem_case_fail(cases, cdem_case_item_key(key, "initial", i, ""), CDEM_INPUT, fault,
+                            "an initial motion needs 'velocity' or 'spin'");
+    cdem_case_item_key(key, "initial", i, "center");
+    if (cdem_case_given(cases, key) && !cdem_case_given(cases, spin))
+      return cdem_case_fail(cases, key, CDEM_INPUT, fault,
+                            "'center' has a meaning beside 'spin' only");
+  }
+  return CDEM_OK;
+}
+
+/* ---- probes, results, the end ---- */
+
+enum { STRESS = 3, FIRST_TENSOR = 4, MAGNITUDE = 10, ROTATION = 3 }; /* of the choices of probes */
+
+static cdem_status check_probe(const cdem_case *cases, const cdem_case_probe *probe,
+                               cdem_fault *fault) {
+  char key[CDEM_CASE_PATH];
+  bool tensor = probe->component >= FIRST_TENSOR && probe->component < MAGNITUDE;
+  cdem_case_named_key(key, "probes", probe->name, "component");
+  if (strcmp(probe->name, "time") == 0)
+    return cdem_case_fail(cases, cdem_case_named_key(key, "probes", probe->name, ""), CDEM_INPUT,
+                          fault, "'%s' is a column of every history; give the probe another name",
+                          probe->name);
+  if (probe->quantity == STRESS && !tensor)
+    return cdem_case_fail(cases, key, CDEM_INPUT, fault,
+                          "a stress has the components xx yy zz yz xz xy");
+  if (probe->quantity != STRESS && tensor)
+    return cdem_case_fail(cases, key, CDEM_INPUT, fault,
+                          "displacement, velocity and force have the components x y z rotation "
+                          "magnitude; xx .. xy are those of 'quantity: stress'");
+  if (probe->component == ROTATION && !cases->values.cosserat)
+    return cdem_case_fail(cases, key, CDEM_INPUT, fault,
+                          "'rotation' is a degree of freedom of Cosserat materials only");
+  return CDEM_OK;
+}
+
+cdem_status cdem_case_check_output(const cdem_case *cases, cdem_fault *fault) {
+  const cdem_case_values *v = &cases->values;
+  char key[CDEM_CASE_PATH];
+  for (int64_t i = 0; i < v->probes.count; i++)
+    CDEM_TRY(check_probe(cases, &v->probes.item[i], fault));
+  for (int64_t i = 0; i < v->results.count; i++) {
+    const cdem_case_key_result *result = &v->results.item[i];
+    if (!isnan(result->tolerance) && isnan(result->reference))
+      return cdem_case_fail(cases, cdem_case_named_key(key, "results", result->name, "tolerance"),
+                            CDEM_INPUT, fault, "'tolerance' needs 'reference' beside it");
+  }
+  if (v->stop_when != NULL && isnan(v->stop_below))
+    return cdem_case_fail(cases, "stop_when", CDEM_INPUT, fault,
+                          "'stop_when' needs 'stop_below' beside it");
+  if (v->stop_when == NULL && !isnan(v->stop_below))
+    return cdem_case_fail(cases, "stop_below", CDEM_INPUT, fault,
+                          "'stop_below' needs 'stop_when' beside it");
+  return CDEM_OK;
+}

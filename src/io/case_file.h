@@ -1,0 +1,25 @@
+/* Case files in: YAML to a typed case, by the schema of room cases; and the schema as text. */
+#ifndef CDEM_IO_CASE_FILE_H
+#define CDEM_IO_CASE_FILE_H
+
+#include "cases/case.h"
+#include "cases/schema.h"
+
+#include <stdio.h>
+
+/* Reads a case. Overrides "section.key=value" ("interfaces[0].tension=2 MPa",
+ * "materials.rock.young=40 GPa") replace or add values after reading the file and before checking;
+ * errors in them name the override. CDEM_INPUT: all errors found, each with file:line:column, caret
+ * and "did you mean". */
+cdem_status cdem_read_case(const char *path, int overrides, const char *const *override,
+                           cdem_case *read, cdem_fault *fault);
+
+/* Help on a section or key ("interfaces", "interfaces.tension"; "case" or NULL: the overview).
+ * CDEM_USAGE with the nearest name when there is none. */
+cdem_status cdem_write_case_help(FILE *stream, const char *topic, cdem_fault *fault);
+/* JSON Schema (draft 2020-12) for editors. */
+cdem_status cdem_write_case_schema(FILE *stream, cdem_fault *fault);
+/* docs/reference/case.md. */
+cdem_status cdem_write_case_reference(FILE *stream, cdem_fault *fault);
+
+#endif
