@@ -15,7 +15,8 @@
  * nodes of no cell are dropped. Order: cells and groups as before; copies of one node follow each
  * other, nodes otherwise in the old order. Tags are those of the old mesh, so that copies share a
  * tag. A boundary facet in a group has the nodes of its own element; a facet between two elements
- * those of the first; a point or (in 3-D) a line those of the lowest cell that has it.
+ * those of the first; a point or (in 3-D) a line those of the lowest cell that has it. Groups of
+ * which nothing is left stay, empty. Where a joint ends, both faces have the same node at its tip.
  */
 #ifndef CDEM_CDEM_BLOCKS_H
 #define CDEM_CDEM_BLOCKS_H
@@ -25,14 +26,14 @@
 #include <stdbool.h>
 
 typedef struct {
-  const cdem_mesh *mesh;           /* borrowed during the call only */
-  int groups;                      /* 0: all cells of the highest dimension */
-  const char *const *group;        /* [groups] chosen cells */
-  int breakable;                   /* groups whose every cell is a block */
+  const cdem_mesh *mesh;    /* borrowed during the call only */
+  int groups;               /* 0: all cells of the highest dimension */
+  const char *const *group; /* [groups] chosen cells */
+  int breakable;            /* groups whose every cell is a block */
   const char *const *breakable_group;
-  int separate;                    /* groups cut off from their surroundings */
+  int separate; /* groups cut off from their surroundings */
   const char *const *separate_group;
-  int joints;                      /* groups of faces (3-D) or edges (2-D) along which is cut */
+  int joints; /* groups of faces (3-D) or edges (2-D) along which is cut */
   const char *const *joint_group;
 } cdem_blocks_options;
 
@@ -49,7 +50,8 @@ typedef struct {
  * `pair_facet[2 p + s]`. */
 typedef struct {
   int32_t cell;
-  int32_t node[4]; /* outward order (counter-clockwise seen from outside; 2-D: interior on the left) */
+  int32_t
+      node[4]; /* outward order (counter-clockwise seen from outside; 2-D: interior on the left) */
   uint8_t corners;
   int32_t pair; /* face pair, -1: on the surface from the start */
 } cdem_facet;
@@ -65,23 +67,24 @@ typedef struct {
   int32_t pairs;
   cdem_face_pair *pair; /* [pairs], ordered by (cell[0], face of cell[0]) */
   int32_t facets;
-  cdem_facet *facet;    /* [facets], ordered by (cell, face of the cell) */
-  int32_t *pair_facet;  /* [2 pairs] */
+  cdem_facet *facet;   /* [facets], ordered by (cell, face of the cell) */
+  int32_t *pair_facet; /* [2 pairs] */
 } cdem_blocks;
 
 /* CDEM_INPUT: an unknown group (the message lists those there are), a joint group of wrong
  * dimension or with a cell that is no face between two chosen cells (its tag), a face shared by
- * three cells. O(n). Zero-initialise; release at any stage. */
+ * three cells, an element of second order. O(n). Zero-initialise; release at any stage. */
 cdem_status cdem_blocks_init(const cdem_blocks_options *options, cdem_blocks *blocks,
                              cdem_fault *fault);
 void cdem_blocks_release(cdem_blocks *blocks);
 
-/* Facets of a group of faces (edges in 2-D), by their position in `blocks->facet`: of a surface
- * group one each, of a joint both sides. *facet is newly allocated [*count]. CDEM_INPUT when the
- * group is unknown or of another dimension. */
+/* Facets of a group of faces (edges in 2-D), by their position in `blocks->facet`, ascending: of a
+ * surface group one each, of a cut face both sides, of a face inside a block none. *facet is newly
+ * allocated [*count]. CDEM_INPUT when the group is unknown or of another dimension. */
 cdem_status cdem_blocks_group_facets(const cdem_blocks *blocks, const char *group, int32_t *count,
                                      int32_t **facet, cdem_fault *fault);
-/* Nodes of a group of any dimension, ascending; of points and lines all copies. */
+/* Nodes of a group of any dimension, ascending: of cells and of faces (2-D: edges) their own, of a
+ * cut face those of both sides; of what is smaller all copies. */
 cdem_status cdem_blocks_group_nodes(const cdem_blocks *blocks, const char *group, int32_t *count,
                                     int32_t **node, cdem_fault *fault);
 

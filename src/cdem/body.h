@@ -1,7 +1,8 @@
 /* The elastic body: the spring network of a model in a corotated frame.
  *
- * Each element e has one rotation R, the polar rotation of the deformation gradient F at its centre.
- * With d_i = R^T (x_i - x_0) - (X_i - X_0) the local displacements, S_ij the spring tensors,
+ * Each element e has one rotation R, the polar rotation of the deformation gradient F at its
+ * centre. With d_i = R^T (x_i - x_0) - (X_i - X_0) the local displacements, S_ij the spring
+ * tensors,
  *
  *     f_i = R sum_j S_ij (d_j - T_ij d_i)  +  terms of dR/dx                               (1)
  *     U   = -1/2 sum_i d_i . (R^T f_i)  of the first term                                  (2)
@@ -16,8 +17,8 @@
  * origin loses no digits.
  *
  * Storage: one template (reference coordinates, inverse Jacobian at the centre, spring tensors) for
- * each distinct element; congruent elements (equal kind, material and relative coordinates, to 1e-12
- * of their size) share it. Elements go in batches of CDEM_LANES, either all of one template
+ * each distinct element; congruent elements (equal kind, material and relative coordinates, to
+ * 1e-12 of their size) share it. Elements go in batches of CDEM_LANES, either all of one template
  * (broadcast) or each with its own (interleaved). Element forces are written once and gathered per
  * node in a fixed order, so that bits do not depend on the number of threads.
  */
@@ -34,6 +35,7 @@ typedef struct {
   const double *micro_inertia; /* [model->materials] m^2, Cosserat: inertia of a node = this times
                                   its mass; NULL: the square of the material's length */
   bool linear;                 /* no rotation: small displacements (tests, static comparison) */
+  bool separate;               /* congruent elements share nothing (tests, benchmark) */
   int threads;                 /* 0: OpenMP's default */
 } cdem_body_options;
 
@@ -46,6 +48,8 @@ typedef struct {
   double *mass; /* [nodes][dofs] lumped by row sums; kg, Cosserat rotation kg m^2; 0 for nodes of no
                    cell */
   int64_t distinct; /* templates */
+  int64_t inverted; /* at the last cdem_body_forces: the first model cell with det F not positive,
+                       -1 when there is none */
   int threads;
   bool linear;
   cdem_body_store *store;
@@ -62,6 +66,10 @@ void cdem_body_release(cdem_body *body);
 void cdem_body_forces(cdem_body *body, const double *u, double *force);
 /* The same by plain loops, one element after the other, straight from (1). */
 void cdem_body_forces_reference(const cdem_body *body, const double *u, double *force);
+
+/* The first model cell that displacements u turn inside out at its centre (det F not positive, or
+ * not a number), -1 when there is none. Forces find the same on their way (body->inverted). */
+int64_t cdem_body_inverted(const cdem_body *body, const double *u);
 
 /* Elastic energy, J, and its parts by spring class, which add up to it: the energy of a pair is
  * -1/2 (d_i . S_ij (d_j - d_i) + d_j . S_ji (d_i - d_j)), d measured from the element's mean (only
@@ -84,19 +92,22 @@ void cdem_body_cell_fields(const cdem_body *body, const double *u, const cdem_bo
 void cdem_body_node_stress(const cdem_body *body, const double *u, double *stress);
 
 /* An upper bound of the largest eigenfrequency, rad/s, of body plus lumped mass: the largest over
- * the elements (Irons), each from power iteration with a margin, at the undeformed state.
+ * the elements (Irons), each from a high power of its matrix (1.25 % above at most), at the
+ * undeformed state.
  * *cell: where (model cell index). */
 double cdem_body_frequency(const cdem_body *body, int32_t *cell);
 
-/* Potential and safe row sums: stiffness [nodes] N/m, for each node the largest Gershgorin row sum
- * of the assembled network over its translations (Cosserat rotations: N m in `couple`, may be NULL).
- * For fictitious masses of a relaxation. */
+/* Safe row sums: stiffness [nodes] N/m, for each node the sum over its elements of the largest
+ * Gershgorin row sum over the translations, which is at least that of the assembled network
+ * (Cosserat: rotations count by the model's length; their own rows, N m, in `couple`, may be NULL).
+ * For fictitious masses of a relaxation: with these as masses no eigenvalue exceeds 1. */
 void cdem_body_row_sums(const cdem_body *body, double *stiffness, double *couple);
 
 /* The network's matrix through the one assembler. */
 cdem_status cdem_body_stiffness(const cdem_body *body, cdem_sparse *stiffness, cdem_fault *fault);
 
-/* Bytes a force evaluation must move at least (the memory bound of bench/cdem.c), and bytes held. */
+/* Bytes a force evaluation must move at least (the memory bound of bench/cdem.c), and bytes held.
+ */
 int64_t cdem_body_traffic(const cdem_body *body);
 int64_t cdem_body_memory(const cdem_body *body);
 

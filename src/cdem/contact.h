@@ -3,14 +3,15 @@
  * Slave points are the corners of active facets, each with its share of the facet's area (the same
  * points on which interfaces stand, so that a released interface hands over without a jump); master
  * faces are active facets of other cells. Both sides are slave and master with half of the
- * stiffness each. In 3-D edges of the surface meet edges too, so that crossing bars do not pass.
+ * stiffness each (where flat faces of different fineness meet, the finer side with more). In 3-D
+ * edges of the surface meet edges too, so that crossing bars do not pass.
  *
  *     F_n = max(0, w (kn g + cn g'))     F_t = -w kt s, cut back to |F_t| <= mu F_n           (1)
  *
- * g overlap along the master's outward normal, w the point's area (m^2; half in two-pass), s the
- * elastic part of the sliding in the frame that turns with the master face. The reaction goes to the
- * master's nodes by its shape functions at the point's projection: forces sum to zero and so do
- * their moments.
+ * g overlap along the master's outward normal, w the part of the point's area that faces the master
+ * and lies over it (m^2; docs/rooms/cdem-contact.md), s the elastic part of the sliding in the
+ * frame that turns with the master face. The reaction goes to the master's nodes by its shape
+ * functions at the point's projection: forces sum to zero and so do their moments.
  *
  * History is kept by (slave point, opposing surface) and follows when the slave moves from one
  * master face to its neighbour. Broad phase: a uniform grid over facets with a skin; rebuilt when
@@ -33,14 +34,15 @@ typedef struct {
   const cdem_blocks *blocks; /* borrowed */
   int dofs;
   double thickness;
-  cdem_contact_law law; /* when no pair says otherwise */
-  int laws;             /* laws of pairs of groups */
+  cdem_contact_law law;             /* when no pair says otherwise */
+  int laws;                         /* laws of pairs of groups */
   const cdem_contact_law *pair_law; /* [laws] */
-  const int16_t *law_of; /* [colours][colours] index into pair_law or -1; NULL: one law everywhere */
+  const int16_t
+      *law_of; /* [colours][colours] index into pair_law or -1; NULL: one law everywhere */
   int colours;
   const int16_t *colour; /* [blocks->mesh.cells] colour of a cell (its group); NULL: 0 */
-  double skin;   /* m; 0: a fifth of the mean facet size */
-  const double *mass; /* [nodes][dofs], borrowed; for the damping and the step */
+  double skin;           /* m; 0: a fifth of the mean facet size */
+  const double *mass;    /* [nodes][dofs], borrowed; for the damping and the step */
   int threads;
 } cdem_contact_options;
 
@@ -63,19 +65,21 @@ void cdem_contact_activate(cdem_contact *contact, int32_t facet);
  * 1 (N, by corner); NULL: from nothing. */
 void cdem_contact_hand_over(cdem_contact *contact, int32_t pair, const double force[4][3]);
 
-/* Adds contact forces at displacements u and velocities v [nodes][dofs] (v of the last half step) to
- * force; dt: the step over which v led to u. CDEM_NUMERIC: something is deeper inside than a facet's
- * size (names the elements, the time step is too long or the speed too large). */
+/* Adds contact forces at displacements u and velocities v [nodes][dofs] (v of the last half step)
+ * to force; dt: the step over which v led to u. CDEM_NUMERIC: something is deeper inside than a
+ * facet's size (names the elements, the time step is too long or the speed too large). */
 cdem_status cdem_contact_forces(cdem_contact *contact, const double *u, const double *v, double dt,
                                 double *force, cdem_fault *fault);
 
 typedef struct {
   double stored, friction, damping; /* J; the last two since the start */
   int64_t contacts, candidates, rebuilds;
+  int64_t visits; /* grid cells and nodes that the last rebuild looked at: its cost */
 } cdem_contact_totals;
 void cdem_contact_sum(const cdem_contact *contact, cdem_contact_totals *totals);
 
-/* Greatest squared frequency of the present contacts by Gershgorin, (rad/s)^2. */
+/* Greatest squared frequency of the contacts by Gershgorin, (rad/s)^2, dashpots included: of all
+ * points within the skin of a face, touching or not, so that it holds until the next rebuild. */
 double cdem_contact_frequency2(const cdem_contact *contact);
 
 /* The present contacts for results: position, normal (out of the master), force on the slave.

@@ -8,11 +8,14 @@
  *
  * c: mass-proportional damping a m and the dashpots of quiet boundaries (3x3 a node, taken
  * implicitly: they never limit the step). F_local = -alpha |F| sign(v) (Cundall). Prescribed
- * components follow their series exactly at t_{n+1}. Tied nodes move with their common force and mass.
+ * components follow their series exactly at t_{n+1}. Tied nodes move with their common force and
+ * mass. F_local takes the sign of the velocity at t_n itself, (v_{n-1/2} + v_{n+1/2})/2, and stops
+ * what it would turn around: it never adds energy. Where the step changes, dt in (1) is the mean of
+ * the old and the new one.
  *
- * Energy book, exact for linear forces: kinetic energy at t_n is m v_{n-1/2} v_{n+1/2}/2, the work of
- * a force over a step (F_n + F_{n+1})/2 . (u_{n+1} - u_n); with these the book closes to rounding but
- * for the curvature of nonlinear energies within a step.
+ * Energy book, exact for linear forces: kinetic energy at t_n is m v_{n-1/2} v_{n+1/2}/2, the work
+ * of a force over a step (F_n + F_{n+1})/2 . (u_{n+1} - u_n); with these the book closes to
+ * rounding but for the curvature of nonlinear energies within a step.
  *
  * The step is safety * 2/omega, omega^2 the sum of the bounds of body, interfaces, contacts and
  * plates; it is looked at again whenever their versions change, and never grows by less than a
@@ -63,7 +66,8 @@ typedef struct {
 } cdem_quiet;
 
 /* A rigid plate that pushes surface nodes (all nodes of facets; overlap against the node's share of
- * the surface area) and reports its force. Finite when half > 0: nodes beyond its edges do not touch. */
+ * the surface area) and reports its force. Finite when half > 0: nodes beyond its edges do not
+ * touch. */
 typedef struct {
   const char *name;
   double point[3], normal[3]; /* a point of the face, and out of the plate towards the body; unit */
@@ -103,11 +107,13 @@ typedef struct {
 /* J. Works are of the forces on the body since the start. */
 typedef struct {
   double kinetic, elastic, interface, contact, plate; /* stored now */
-  double fracture, friction, damping, quiet;          /* dissipated (damping: mass, local, contact) */
-  double load, gravity, support;                      /* work of loads and pressures, gravity,
-                                                         prescribed motions of nodes and plates */
-  double initial;                                     /* energy at the start */
-  double error;    /* stored + dissipated - work - initial */
+  double fracture, friction, damping, quiet; /* dissipated (damping: mass, local, contact) */
+  double load, gravity, support;             /* work of loads and pressures, gravity,
+                                                prescribed motions of nodes and plates */
+  double initial;                            /* energy at the start */
+  double step;     /* by which changes of the time step have shifted the leapfrog's measure of the
+                      kinetic     energy: no work, of second order in the step */
+  double error;    /* stored + dissipated - work - initial - step */
   double exchange; /* scale of the error: the largest of all terms so far seen at a report */
 } cdem_energy_book;
 
@@ -123,14 +129,14 @@ typedef struct {
   double *v;         /* [nodes][dofs] at t_n - dt/2 */
   double *force;     /* [nodes][dofs] all forces but reactions and damping, at t_n */
   double *external;  /* [nodes][dofs] of loads, pressures and gravity in force */
-  double *applied;   /* [nodes][dofs] added to the forces at every evaluation: the door for a coupled
-                        solver; zero at first */
+  double *applied;   /* [nodes][dofs] forces at t_n of a coupled solver, added (beside `force`) when
+                        the   velocities are moved: set them between steps; zero at first */
   cdem_solver_store *store;
 } cdem_solver;
 
-/* CDEM_INPUT: an unstable step was asked for (names the limit and where it comes from), two supports
- * that prescribe one component of one node differently (names both and the node). Evaluates the
- * forces at t = 0. */
+/* CDEM_INPUT: an unstable step was asked for (names the limit and where it comes from), two
+ * supports that prescribe one component of one node differently (names both and the node).
+ * Evaluates the forces at t = 0. */
 cdem_status cdem_solver_init(const cdem_solver_options *options, cdem_solver *solver,
                              cdem_fault *fault);
 void cdem_solver_release(cdem_solver *solver);
@@ -143,8 +149,8 @@ cdem_status cdem_solver_step(cdem_solver *solver, cdem_fault *fault);
 double cdem_solver_limit(const cdem_solver *solver, char limiter[64]);
 
 /* Static solution of the linear network (intact interfaces as springs, tied nodes as one) for the
- * loads and supports at `time`, by CHOLMOD; u is overwritten. CDEM_INPUT: not enough supports (names
- * the rigid motions that are free), a plate or contact (static runs know neither). */
+ * loads and supports at `time`, by CHOLMOD; u is overwritten. CDEM_INPUT: not enough supports
+ * (names the rigid motions that are free), a plate or contact (static runs know neither). */
 cdem_status cdem_solver_static(cdem_solver *solver, double time, cdem_fault *fault);
 
 /* Ratio of the largest unbalanced nodal force (free components) to the mean nodal force (mean over
@@ -155,7 +161,8 @@ double cdem_solver_unbalanced(const cdem_solver *solver);
 void cdem_solver_energies(cdem_solver *solver, cdem_energy_book *book);
 
 /* Reaction of a support, N: the sum over its nodes of what must be added to hold them (shared
- * nodes count for each). Plate: force of the body on the plate, and how far it has moved. */
+ * nodes count for each; what holds a tied cluster is shared by its members that are held). Plate:
+ * force of the body on the plate, and how far it has moved. */
 double cdem_solver_reaction(const cdem_solver *solver, int support);
 void cdem_solver_plate(const cdem_solver *solver, int plate, double force[3], double moved[3]);
 
