@@ -1,5 +1,6 @@
 /* cdem help [COMMAND|TOPIC] */
 #include "command.h"
+#include "io/case_file.h"
 
 #include <string.h>
 
@@ -11,8 +12,10 @@ static const char overview[] = "cdem: finite-element stiffness as springs, for "
 
 static const char topics_text[] =
     "\n"
-    "`cdem COMMAND --help` shows a command's options; `cdem help signs|errors|files` explains\n"
-    "the sign rules of springs, the exit codes, and the material file.\n";
+    "`cdem COMMAND --help` shows a command's options; `cdem help signs|errors|files|case`\n"
+    "explains the sign rules of springs, the exit codes, the material file, and the case file of "
+    "`cdem run`\n"
+    "(`cdem help case interfaces.tension`: one key).\n";
 
 static const char signs[] =
     "signs and forms of springs\n"
@@ -53,6 +56,26 @@ static void print_errors(void) {
            cdem_status_text((cdem_status)status));
 }
 
+/* cdem help case [TOPIC | --schema | --markdown] */
+static int help_case(int arguments, char **argument) {
+  cdem_fault fault = {0};
+  cdem_status status;
+  const char *topic = arguments > 0 ? argument[0] : NULL;
+  if (arguments > 1)
+    command_usage("cdem help case: one section or key, or --schema, or --markdown");
+  if (topic != NULL && strcmp(topic, "--schema") == 0)
+    status = cdem_write_case_schema(stdout, &fault);
+  else if (topic != NULL && strcmp(topic, "--markdown") == 0)
+    status = cdem_write_case_reference(stdout, &fault);
+  else if (topic != NULL && topic[0] == '-')
+    command_usage("cdem help case: there is no option '%s'; there are --schema (JSON Schema for "
+                  "editors) and --markdown",
+                  topic);
+  else
+    status = cdem_write_case_help(stdout, topic, &fault);
+  return status == CDEM_OK ? 0 : command_fail(&fault);
+}
+
 static void print_overview(void) {
   fputs(overview, stdout);
   for (const command *c = commands; c->name != NULL; c++)
@@ -66,6 +89,8 @@ int cmd_help(int argc, char **argv) {
     print_overview();
     return 0;
   }
+  if (strcmp(topic, "case") == 0)
+    return help_case(argc - 2, argv + 2);
   if (strcmp(topic, "signs") == 0)
     fputs(signs, stdout);
   else if (strcmp(topic, "files") == 0)
@@ -80,8 +105,8 @@ int cmd_help(int argc, char **argv) {
         char *arguments[] = {called, option, NULL};
         return c->run(2, arguments);
       }
-    command_usage("there is no help on '%s'; topics are signs, errors, files and the commands",
-                  topic);
+    command_usage(
+        "there is no help on '%s'; topics are signs, errors, files, case and the commands", topic);
   }
   return 0;
 }

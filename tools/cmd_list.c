@@ -1,5 +1,6 @@
 /* cdem list [TOPIC]: what there is, from the tables that the program itself works from. */
 #include "base/suggest.h"
+#include "cases/schema.h"
 #include "command.h"
 
 #include <string.h>
@@ -41,6 +42,21 @@ static void list_formats(void) {
   }
 }
 
+static void list_key(void *context, const char *path, const cdem_case_key *key) {
+  char unit[48] = "";
+  (void)context;
+  if (key->dimension.length != 0 || key->dimension.time != 0 || key->dimension.mass != 0)
+    cdem_dimension_unit(key->dimension, unit);
+  printf("  %-36s %s%s%s%s\n", path, unit[0] != '\0' ? "[" : "", unit, unit[0] != '\0' ? "] " : "",
+         key->help);
+}
+
+static void list_case(void) {
+  printf(
+      "keys of a case file ([unit]); `cdem help case KEY` tells default, range and an example\n");
+  cdem_case_walk(list_key, NULL);
+}
+
 static void list_commands(void) {
   printf("commands\n");
   for (const command *c = commands; c->name != NULL; c++)
@@ -51,10 +67,8 @@ static const struct {
   const char *name;
   void (*print)(void);
 } topics[] = {
-    {"elements", list_elements},
-    {"materials", list_materials},
-    {"formats", list_formats},
-    {"commands", list_commands},
+    {"elements", list_elements}, {"materials", list_materials}, {"formats", list_formats},
+    {"commands", list_commands}, {"case", list_case},
 };
 
 enum { TOPICS = sizeof topics / sizeof topics[0] };
@@ -71,9 +85,13 @@ static error_t parse(int key, char *text, struct argp_state *state) {
 
 int cmd_list(int argc, char **argv) {
   static const struct argp_option none[] = {{0}};
-  static const struct argp argp = {
-      none, parse, "[elements|materials|formats|commands]", "Lists what the program knows.", NULL,
-      NULL, NULL};
+  static const struct argp argp = {none,
+                                   parse,
+                                   "[elements|materials|formats|commands|case]",
+                                   "Lists what the program knows.",
+                                   NULL,
+                                   NULL,
+                                   NULL};
   const char *topic = NULL, *names[TOPICS];
   command_parse(&argp, argc, argv, &topic);
   for (int i = 0; i < TOPICS; i++)

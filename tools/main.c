@@ -36,7 +36,7 @@ int main(int argc, char **argv) {
   signal(SIGPIPE, SIG_IGN);    /* a closed pipe is an error message, not a silent death */
   signal(SIGXFSZ, SIG_IGN);    /* likewise a file-size limit */
   if (argc < 2)
-    command_usage("a command is wanted: springs, poisson, verify, list or help");
+    command_usage("a command is wanted: springs, poisson, run, verify, list or help");
   if (strcmp(argv[1], "--version") == 0 || strcmp(argv[1], "-V") == 0) {
     print_version();
     return command_finish(0);

@@ -18,34 +18,46 @@
 #include "base/base.h"
 #include "io/io.h"
 
+#include <stdbool.h>
+
 typedef struct {
-  const char *path;     /* of the case; NULL with resume */
+  const char *path; /* of the case; NULL with resume */
   const char *folder;
-  bool resume;          /* continue folder's run from its checkpoint */
+  bool resume; /* continue folder's run from its checkpoint */
+  bool check;  /* build everything, run nothing, write nothing; folder may be NULL */
   int overrides;
-  const char *const *override; /* "mesh.parameters.h=2" */
-  int threads;          /* 0: OpenMP's default */
-  bool figures;         /* draw them */
-  bool frames;          /* write them */
+  const char *const *override;  /* "mesh.parameters.h=2" */
+  int threads;                  /* 0: OpenMP's default */
+  bool figures;                 /* draw them */
+  bool frames;                  /* write them */
   const char *version, *commit; /* for summary.json */
   const cdem_progress *progress;
   const cdem_warnings *warnings;
 } cdem_run_options;
 
 typedef struct {
+  char *title; /* NULL: none */
   int64_t steps;
-  double time, wall; /* s */
-  int64_t elements, blocks, interfaces;
-  double energy_error; /* |error| of the book by its scale */
-  int results;         /* key results with a reference */
-  int failed;          /* ... that are off by more than their tolerance */
-  cdem_table keys;     /* name, value, unit, reference, difference */
+  double time, wall;          /* s; wall: of all parts of a run that was continued */
+  int64_t nodes, unknowns;    /* of the cut mesh; unknowns: nodes times their freedoms */
+  int64_t elements, distinct; /* distinct: templates of congruent elements */
+  int64_t blocks, interfaces; /* interfaces: faces between blocks */
+  double step;                /* s, the present one */
+  char limiter[64];           /* what limits it */
+  double energy_error;        /* |error| of the book by its scale */
+  int results;                /* key results with a reference */
+  int failed;                 /* ... that are off by more than their tolerance */
+  cdem_table keys; /* name, value, unit, reference, difference (relative; absolute where the
+                      reference is 0); no unit where a factor was applied */
 } cdem_run_summary;
 
-/* CDEM_INTERRUPTED after a wish to stop: a checkpoint has been written and the message says how to go
- * on. CDEM_INPUT when the folder is in use by another run. */
-cdem_status cdem_run(const cdem_run_options *options, cdem_run_summary *summary,
-                     cdem_fault *fault);
+/* A new run in the folder of an earlier one replaces its files. Not balanced within most_steps:
+ * CDEM_NUMERIC, with rows, frames and checkpoint in place. Pictures that cannot be drawn are a
+ * warning.
+ *
+ * CDEM_INTERRUPTED after a wish to stop: a checkpoint has been written and the message says how to
+ * go on. CDEM_INPUT when the folder is in use by another run. */
+cdem_status cdem_run(const cdem_run_options *options, cdem_run_summary *summary, cdem_fault *fault);
 void cdem_run_summary_release(cdem_run_summary *summary);
 
 #endif

@@ -1,0 +1,248 @@
+/* Blocks, model and elastic body of a case. */
+#include "run/setup.h"
+
+#include <omp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const *texts(const cdem_case_texts *list) {
+  return (const char *const *)list->item;
+}
+
+/* Each group of a list must be there, of the wanted dimension. */
+static cdem_status check_groups(const cdem_run_setup *setup, const char *key,
+                                const cdem_case_texts *list, int dimension, cdem_fault *fault) {
+  for (int64_t i = 0; i < list->count; i++) {
+    const cdem_group *group;
+    CDEM_TRY(cdem_run_find_group(setup, key, list->item[i], dimension, dimension, &group, fault));
+  }
+  return CDEM_OK;
+}
+
+static cdem_status cut(cdem_run_setup *setup, cdem_fault *fault) {
+  const cdem_case_blocks *blocks = &cdem_run_values(setup)->blocks;
+  int dimension = cdem_mesh_dimension(&setup->mesh);
+  if (dimension < 2)
+    return cdem_case_fail(&setup->cases, "mesh", CDEM_INPUT, fault,
+                          "the mesh has no surface or volume elements (highest dimension %d)",
+                          dimension);
+  CDEM_TRY(check_groups(setup, "blocks.breakable", &blocks->breakable, dimension, fault));
+  CDEM_TRY(check_groups(setup, "blocks.separate", &blocks->separate, dimension, fault));
+  CDEM_TRY(check_groups(setup, "blocks.joints", &blocks->joints, dimension - 1, fault));
+  const cdem_blocks_options options = {.mesh = &setup->mesh,
+                                       .breakable = (int)blocks->breakable.count,
+                                       .breakable_group = texts(&blocks->breakable),
+                                       .separate = (int)blocks->separate.count,
+                                       .separate_group = texts(&blocks->separate),
+                                       .joints = (int)blocks->joints.count,
+                                       .joint_group = texts(&blocks->joints)};
+  cdem_status status = cdem_blocks_init(&options, &setup->blocks, fault);
+  return status == CDEM_INPUT ? cdem_case_blame(&setup->cases, "blocks", fault) : status;
+}
+
+/* Index of the material for cells of no named group; -1 when every material has groups. */
+static cdem_status find_default(const cdem_run_setup *setup, int *index, cdem_fault *fault) {
+  const cdem_case_values *values = cdem_run_values(setup);
+  char key[96];
+  *index = -1;
+  for (int m = 0; m < (int)values->materials.count; m++) {
+    const cdem_case_material *material = &values->materials.item[m];
+    if (material->groups.count > 0)
+      continue;
+    if (*index >= 0)
+      return cdem_case_fail(
+          &setup->cases, cdem_run_named_key(key, "materials", material->name, ""), CDEM_INPUT,
+          fault, "materials '%s' and '%s' both have no groups; one material at most may be without",
+          values->materials.item[*index].name, material->name);
+    *index = m;
+  }
+  return CDEM_OK;
+}
+
+/* No cell may be left without a material; the message names the groups it is in. */
+static cdem_status check_cover(const cdem_run_setup *setup, cdem_fault *fault) {
+  const cdem_case_values *values = cdem_run_values(setup);
+  const cdem_mesh *mesh = &setup->blocks.mesh;
+  bool *covered = cdem_allocate(mesh->cells, sizeof *covered, fault);
+  if (covered == NULL)
+    return CDEM_MEMORY;
+  for (int64_t m = 0; m < values->materials.count; m++)
+    for (int64_t g = 0; g < values->materials.item[m].groups.count; g++) {
+      const cdem_group *group =
+          cdem_mesh_find_group(mesh, values->materials.item[m].groups.item[g]);
+      for (int32_t i = 0; i < group->cells; i++)
+        covered[group->cell[i]] = true;
+    }
+  int32_t first = -1, bare = 0;
+  for (int32_t c = 0; c < mesh->cells; c++)
+    if (setup->blocks.block[c] >= 0 && !covered[c]) {
+      first = first < 0 ? c : first;
+      bare++;
+    }
+  free(covered);
+  if (bare == 0)
+    return CDEM_OK;
+  char names[200];
+  cdem_run_group_names(mesh, first, setup->blocks.dimension, setup->blocks.dimension, names);
+  return cdem_case_fail(&setup->cases, "materials", CDEM_INPUT, fault,
+                        "%d elements have no material: element %lld is in group %s; name the group "
+                        "under `groups` of a material, or leave `groups` out of one material",
+                        bare, (long long)mesh->cell_tag[first], names);
+}
+
+/* Materials and their groups as the model wants them; the arrays are the caller's. */
+typedef struct {
+  cdem_material *material;
+  const char **group;
+  int *of;
+  int assignments;
+} assignment;
+
+static void assignment_release(assignment *a) {
+  free(a->material);
+  free(a->group);
+  free(a->of);
+}
+
+static cdem_status assign(const cdem_run_setup *setup, assignment *a, cdem_fault *fault) {
+  const cdem_case_values *values = cdem_run_values(setup);
+  int materials = (int)values->materials.count, dimension = setup->blocks.dimension;
+  int64_t groups = 0;
+  for (int m = 0; m < materials; m++)
+    groups += values->materials.item[m].groups.count;
+  CDEM_NEW(a->material, materials, fault);
+  CDEM_NEW(a->group, groups, fault);
+  CDEM_NEW(a->of, groups, fault);
+  for (int m = 0; m < materials; m++) {
+    const cdem_case_material *material = &values->materials.item[m];
+    char key[96];
+    cdem_run_named_key(key, "materials", material->name, "groups");
+    a->material[m] = material->material;
+    snprintf(a->material[m].name, sizeof a->material[m].name, "%s", material->name);
+    CDEM_TRY(check_groups(setup, key, &material->groups, dimension, fault));
+    for (int64_t g = 0; g < material->groups.count; g++) {
+      a->group[a->assignments] = material->groups.item[g];
+      a->of[a->assignments++] = m;
+    }
+  }
+  return CDEM_OK;
+}
+
+static cdem_status make_model(cdem_run_setup *setup, const assignment *a, int default_material,
+                              cdem_fault *fault) {
+  const cdem_model_options options = {.mesh = &setup->blocks.mesh,
+                                      .materials = (int)cdem_run_values(setup)->materials.count,
+                                      .material = a->material,
+                                      .assignments = a->assignments,
+                                      .assigned_group = a->group,
+                                      .assigned_material = a->of,
+                                      .default_material = default_material,
+                                      .section = setup->section};
+  if (default_material < 0)
+    CDEM_TRY(check_cover(setup, fault));
+  cdem_fault local = {0};
+  cdem_status status = cdem_model_init(&options, &setup->model, &local);
+  if (status == CDEM_OK)
+    return CDEM_OK;
+  if (fault != NULL)
+    *fault = local;
+  if (status != CDEM_INPUT)
+    return status;
+  /* A material that cannot be, or an element that cannot. */
+  bool material = strstr(local.message, "material") != NULL;
+  return cdem_case_blame(&setup->cases, material ? "materials" : "mesh", fault);
+}
+
+/* lambda + 2G and G of the formulation. Not isotropic: the stiffest direct and shear moduli, which
+ * is what a penalty must keep up with. */
+static cdem_status moduli(const cdem_run_setup *setup, const cdem_material *material,
+                          cdem_run_moduli *found, cdem_fault *fault) {
+  const cdem_formulation formulation = setup->model.formulation;
+  double d[36];
+  int rows;
+  if (formulation == CDEM_SOLID) {
+    CDEM_TRY(cdem_material_moduli(material, CDEM_MODULI_SOLID, NULL, d, &rows, fault));
+    found->wave = fmax(d[0], fmax(d[7], d[14]));
+    found->shear = fmax(d[21], fmax(d[28], d[35]));
+  } else if (formulation == CDEM_PLANE) {
+    CDEM_TRY(cdem_material_moduli(material, CDEM_MODULI_PLANE, &setup->section, d, &rows, fault));
+    found->wave = fmax(d[0], d[4]);
+    found->shear = d[8];
+  } else {
+    CDEM_TRY(cdem_material_moduli(material, CDEM_MODULI_PLANE_COSSERAT, &setup->section, d, &rows,
+                                  fault));
+    found->wave = fmax(d[0], d[7]);
+    found->shear = 0.5 * (d[14] + d[15]); /* (G + Gc + G - Gc)/2 */
+  }
+  return CDEM_OK;
+}
+
+static cdem_status material_numbers(cdem_run_setup *setup, cdem_fault *fault) {
+  const cdem_case_values *values = cdem_run_values(setup);
+  int materials = (int)values->materials.count;
+  bool gravity = cdem_norm3(values->gravity) > 0.0,
+       needed = values->analysis == CDEM_ANALYSIS_DYNAMIC || gravity;
+  CDEM_NEW(setup->density, materials, fault);
+  CDEM_NEW(setup->micro_inertia, materials, fault);
+  CDEM_NEW(setup->moduli, materials, fault);
+  for (int m = 0; m < materials; m++) {
+    const cdem_case_material *material = &values->materials.item[m];
+    if (needed)
+      CDEM_TRY(cdem_run_density(setup, m, gravity ? "gravity" : "a dynamic run", fault));
+    /* Without inertia or weight the density has no part in the result. */
+    setup->density[m] = material->density > 0.0 ? material->density : 1.0;
+    double length = cdem_material_length(&material->material);
+    setup->micro_inertia[m] =
+        isnan(material->micro_inertia) ? length * length : material->micro_inertia;
+    CDEM_TRY(moduli(setup, &setup->model.materials_of[m], &setup->moduli[m], fault));
+  }
+  return CDEM_OK;
+}
+
+static cdem_status cell_numbers(cdem_run_setup *setup, cdem_fault *fault) {
+  const cdem_model *model = &setup->model;
+  CDEM_NEW(setup->model_of, setup->blocks.mesh.cells, fault);
+  CDEM_NEW(setup->volume, model->cells, fault);
+  for (int32_t c = 0; c < setup->blocks.mesh.cells; c++)
+    setup->model_of[c] = -1;
+  double thickness = model->dimension == 2 ? setup->section.thickness : 1.0;
+  for (int32_t i = 0; i < model->cells; i++) {
+    double xyz[CDEM_SHAPE_MAX_NODES][3];
+    setup->model_of[model->cell[i]] = i;
+    cdem_model_coordinates(model, i, xyz);
+    setup->volume[i] =
+        cdem_element_volume(&model->kinds_of[model->kind[i]].tabulation, thickness, xyz);
+  }
+  return CDEM_OK;
+}
+
+/* Waiting for each other costs small bodies more than a second thread gains; no result depends on
+ * their number. */
+static int worthwhile_threads(const cdem_run_setup *setup) {
+  enum { CELLS_A_THREAD = 2000 };
+  int most = omp_get_max_threads(), worth = 1 + setup->model.cells / CELLS_A_THREAD;
+  return setup->options->threads > 0 ? setup->options->threads : worth < most ? worth : most;
+}
+
+cdem_status cdem_run_setup_body(cdem_run_setup *setup, cdem_fault *fault) {
+  assignment a = {0};
+  int default_material;
+  CDEM_TRY(cut(setup, fault));
+  CDEM_TRY(find_default(setup, &default_material, fault));
+  cdem_status status = assign(setup, &a, fault);
+  if (status == CDEM_OK)
+    status = make_model(setup, &a, default_material, fault);
+  assignment_release(&a);
+  CDEM_TRY(status);
+  CDEM_TRY(material_numbers(setup, fault));
+  CDEM_TRY(cell_numbers(setup, fault));
+  setup->threads = worthwhile_threads(setup);
+  const cdem_body_options options = {.density = setup->density,
+                                     .micro_inertia = setup->micro_inertia,
+                                     .linear =
+                                         cdem_run_values(setup)->analysis == CDEM_ANALYSIS_STATIC,
+                                     .threads = setup->threads};
+  status = cdem_body_init(&setup->model, &options, &setup->body, fault);
+  return status == CDEM_INPUT ? cdem_case_blame(&setup->cases, "mesh", fault) : status;
+}

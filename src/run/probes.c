@@ -1,0 +1,136 @@
+/* Probes: means of displacement, velocity and stress, and the sum of the forces on a group. */
+#include "run/history.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { DISPLACEMENT, VELOCITY, FORCE, STRESS };           /* the choices of `quantity` */
+enum { X, Y, Z, ROTATION, XX, YY, ZZ, YZ, XZ, XY, SIZE }; /* of `component` */
+
+const char *cdem_run_probe_unit(const cdem_case_probe *probe) {
+  static const char *const unit[] = {"m", "m/s", "N", "Pa"};
+  static const char *const turning[] = {"rad", "rad/s", "N m", ""};
+  return (probe->component == ROTATION ? turning : unit)[probe->quantity];
+}
+
+static cdem_status check_component(const cdem_run_setup *setup, const cdem_case_probe *probe,
+                                   cdem_fault *fault) {
+  char key[96];
+  int dof;
+  bool stress = probe->quantity == STRESS,
+       tensor = probe->component >= XX && probe->component < SIZE;
+  if (stress != tensor && probe->component != SIZE)
+    return cdem_case_fail(
+        &setup->cases, cdem_run_named_key(key, "probes", probe->name, "component"), CDEM_INPUT,
+        fault, "a component of %s is one of %s", stress ? "stress" : "a vector",
+        stress ? "xx, yy, zz, yz, xz, xy, magnitude" : "x, y, z, rotation, magnitude");
+  if (!tensor && probe->component != SIZE)
+    return cdem_run_dof(setup, cdem_run_named_key(key, "probes", probe->name, "component"),
+                        probe->component, &dof, fault);
+  return CDEM_OK;
+}
+
+static cdem_status resolve(const cdem_run_setup *setup, const cdem_case_probe *probe,
+                           cdem_run_probe *found, cdem_fault *fault) {
+  const cdem_group *group;
+  char key[96];
+  CDEM_TRY(check_component(setup, probe, fault));
+  CDEM_TRY(cdem_run_find_group(setup, cdem_run_named_key(key, "probes", probe->name, "group"),
+                               probe->group, 0, 3, &group, fault));
+  if (probe->quantity == STRESS && group->dimension == setup->blocks.dimension) {
+    found->cells = group;
+    return CDEM_OK;
+  }
+  return cdem_blocks_group_nodes(&setup->blocks, probe->group, &found->nodes, &found->node, fault);
+}
+
+cdem_status cdem_run_probes_init(const cdem_run_setup *setup, cdem_run_history *history,
+                                 cdem_fault *fault) {
+  const cdem_case_values *values = cdem_run_values(setup);
+  bool cells = false, nodes = false;
+  CDEM_NEW(history->probe, values->probes.count, fault);
+  for (int64_t p = 0; p < values->probes.count; p++) {
+    const cdem_case_probe *probe = &values->probes.item[p];
+    CDEM_TRY(resolve(setup, probe, &history->probe[p], fault));
+    cells = cells || history->probe[p].cells != NULL;
+    nodes = nodes || (probe->quantity == STRESS && history->probe[p].cells == NULL);
+  }
+  CDEM_NEW(history->velocity, (int64_t)setup->body.nodes * setup->body.dofs, fault);
+  if (cells)
+    CDEM_NEW(history->cell_stress, 6 * (int64_t)setup->model.cells, fault);
+  if (nodes)
+    CDEM_NEW(history->node_stress, 6 * (int64_t)setup->body.nodes, fault);
+  return CDEM_OK;
+}
+
+void cdem_run_probes_update(const cdem_run_setup *setup, cdem_run_history *history) {
+  const cdem_body_fields fields = {.stress = history->cell_stress};
+  if (cdem_run_values(setup)->probes.count > 0)
+    cdem_solver_velocity(&setup->solver, history->velocity);
+  if (history->cell_stress != NULL)
+    cdem_body_cell_fields(&setup->body, setup->solver.u, &fields);
+  if (history->node_stress != NULL)
+    cdem_body_node_stress(&setup->body, setup->solver.u, history->node_stress);
+}
+
+/* Mean over the group, xx yy zz yz xz xy. */
+static void mean_stress(const cdem_run_setup *setup, const cdem_run_history *history,
+                        const cdem_run_probe *probe, double mean[6]) {
+  double sum = 0.0;
+  memset(mean, 0, 6 * sizeof *mean);
+  if (probe->cells != NULL)
+    for (int32_t i = 0; i < probe->cells->cells; i++) {
+      int64_t cell = setup->model_of[probe->cells->cell[i]];
+      sum += setup->volume[cell];
+      for (int k = 0; k < 6; k++)
+        mean[k] += setup->volume[cell] * history->cell_stress[6 * cell + k];
+    }
+  else
+    for (int32_t i = 0; i < probe->nodes; i++) {
+      sum += 1.0;
+      for (int k = 0; k < 6; k++)
+        mean[k] += history->node_stress[6 * (int64_t)probe->node[i] + k];
+    }
+  for (int k = 0; k < 6; k++)
+    mean[k] /= sum;
+}
+
+static double von_mises(const double s[6]) {
+  double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+  double shear = s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
+  return sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * shear);
+}
+
+/* Sum (force) or mean over the nodes, by degree of freedom. The force that holds or pushes a node
+ * is what balances the forces inside: external - (all forces). */
+static void node_vector(const cdem_run_setup *setup, const cdem_run_history *history,
+                        const cdem_run_probe *probe, int quantity, double vector[3]) {
+  const cdem_solver *solver = &setup->solver;
+  int dofs = solver->dofs;
+  memset(vector, 0, 3 * sizeof *vector);
+  for (int32_t i = 0; i < probe->nodes; i++)
+    for (int k = 0; k < dofs; k++) {
+      int64_t at = (int64_t)probe->node[i] * dofs + k;
+      vector[k] += quantity == DISPLACEMENT ? solver->u[at]
+                   : quantity == VELOCITY   ? history->velocity[at]
+                                            : solver->external[at] - solver->force[at];
+    }
+  for (int k = 0; k < dofs && quantity != FORCE; k++)
+    vector[k] /= probe->nodes;
+}
+
+double cdem_run_probe_value(const cdem_run_setup *setup, const cdem_run_history *history,
+                            int64_t index) {
+  const cdem_case_probe *probe = &cdem_run_values(setup)->probes.item[index];
+  const cdem_run_probe *place = &history->probe[index];
+  if (probe->quantity == STRESS) {
+    double stress[6];
+    mean_stress(setup, history, place, stress);
+    return probe->component == SIZE ? von_mises(stress) : stress[probe->component - XX];
+  }
+  double vector[3];
+  node_vector(setup, history, place, probe->quantity, vector);
+  if (probe->component == SIZE)
+    return setup->model.dimension == 3 ? cdem_norm3(vector) : hypot(vector[0], vector[1]);
+  return vector[probe->component == ROTATION ? 2 : probe->component];
+}

@@ -1,0 +1,163 @@
+/* One run: folder, lock, setup, loop, and what is said at the end. */
+#include "run/run.h"
+
+#include "io/run_files.h"
+#include "run/summary.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static void warn(const cdem_run_options *options, const char *message) {
+  if (options->warnings != NULL && options->warnings->warn != NULL)
+    options->warnings->warn(options->warnings->context, message);
+}
+
+static cdem_status write_case(const cdem_run_setup *setup, cdem_fault *fault) {
+  cdem_output *file = NULL;
+  char path[4096];
+  CDEM_TRY(
+      cdem_output_open(cdem_run_path(path, setup->options->folder, "case.yaml"), &file, fault));
+  cdem_status status =
+      cdem_output_write(file, setup->cases.source, strlen(setup->cases.source), fault);
+  if (status == CDEM_OK)
+    status = cdem_output_commit(&file, fault);
+  cdem_output_discard(&file);
+  return status;
+}
+
+/* Takes the folder for a new run. What an earlier run left is replaced; its summary and checkpoint
+ * go first, so that they never stand beside files of another run. */
+static cdem_status clear_folder(const cdem_run_options *options, cdem_fault *fault) {
+  static const char *const old[] = {"summary.json", "checkpoint.h5", "history.csv"};
+  char path[4096], message[4300];
+  bool found = false;
+  for (size_t i = 0; i < sizeof old / sizeof old[0]; i++) {
+    cdem_run_path(path, options->folder, old[i]);
+    if (access(path, F_OK) != 0)
+      continue;
+    found = true;
+    CDEM_REQUIRE(unlink(path) == 0, fault, CDEM_FILE,
+                 "cannot replace '%s' of an earlier run; choose another folder with -o", path);
+  }
+  if (found) {
+    snprintf(message, sizeof message, "the folder '%s' holds an earlier run, which is replaced",
+             options->folder);
+    warn(options, message);
+  }
+  return CDEM_OK;
+}
+
+/* The state of a broken run; CDEM_INPUT when there is nothing to continue. */
+static cdem_status read_checkpoint(const cdem_run_options *options, cdem_state *state,
+                                   cdem_fault *fault) {
+  char path[4096];
+  CDEM_REQUIRE(access(cdem_run_path(path, options->folder, "checkpoint.h5"), F_OK) == 0, fault,
+               CDEM_INPUT, "there is no run to continue in '%s': it has no checkpoint.h5",
+               options->folder);
+  CDEM_REQUIRE(access(cdem_run_path(path, options->folder, "summary.json"), F_OK) != 0, fault,
+               CDEM_INPUT, "the run in '%s' has ended: summary.json is there; nothing to continue",
+               options->folder);
+  return cdem_read_state(cdem_run_path(path, options->folder, "checkpoint.h5"), state, fault);
+}
+
+/* ---- the end ---- */
+
+static cdem_status finish(cdem_run_output *output, cdem_run_summary *summary, cdem_fault *fault) {
+  cdem_table history = {0};
+  char path[4096];
+  CDEM_TRY(cdem_read_history(cdem_run_path(path, output->options->folder, "history.csv"), &history,
+                             fault));
+  cdem_status status = CDEM_OK;
+  if (output->options->figures)
+    status = cdem_run_figures(output, &history, fault);
+  if (status == CDEM_OK)
+    status = cdem_run_summary_fill(output, &history, summary, fault);
+  if (status == CDEM_OK)
+    status = cdem_run_summary_write(output, &history, summary, fault);
+  cdem_table_release(&history);
+  return status;
+}
+
+static cdem_status step_and_finish(cdem_run_setup *setup, const cdem_state *checkpoint,
+                                   cdem_run_summary *summary, cdem_fault *fault) {
+  cdem_run_output output = {0};
+  CDEM_TRY(cdem_run_output_open(setup, checkpoint, &output, fault));
+  cdem_status status = cdem_run_loop(&output, fault);
+  if (status == CDEM_OK)
+    status = finish(&output, summary, fault);
+  cdem_run_output_close(&output);
+  return status;
+}
+
+/* ---- three ways in ---- */
+
+static cdem_status check_only(const cdem_run_options *options, cdem_run_summary *summary,
+                              cdem_fault *fault) {
+  cdem_run_setup setup = {0};
+  cdem_run_history history = {0};
+  CDEM_TRY(cdem_run_setup_init(options, NULL, &setup, fault));
+  cdem_status status = cdem_run_history_init(&setup, &history, fault);
+  if (status == CDEM_OK)
+    cdem_run_summary_sizes(&setup, summary);
+  cdem_run_history_release(&history, &setup);
+  cdem_run_setup_release(&setup);
+  return status;
+}
+
+/* Everything in the case is looked at before the folder is touched. */
+static cdem_status run_new(const cdem_run_options *options, cdem_run_summary *summary,
+                           cdem_fault *fault) {
+  cdem_run_setup setup = {0};
+  cdem_run_history history = {0};
+  cdem_folder_lock *lock = NULL;
+  CDEM_TRY(cdem_run_setup_init(options, NULL, &setup, fault));
+  cdem_status status = cdem_run_history_init(&setup, &history, fault);
+  cdem_run_history_release(&history, &setup);
+  if (status == CDEM_OK)
+    status = cdem_make_folder(options->folder, fault);
+  if (status == CDEM_OK)
+    status = cdem_folder_lock_take(options->folder, &lock, fault);
+  if (status == CDEM_OK)
+    status = clear_folder(options, fault);
+  if (status == CDEM_OK)
+    status = write_case(&setup, fault);
+  if (status == CDEM_OK)
+    status = step_and_finish(&setup, NULL, summary, fault);
+  cdem_folder_lock_drop(&lock);
+  cdem_run_setup_release(&setup);
+  return status;
+}
+
+static cdem_status run_on(const cdem_run_options *options, cdem_run_summary *summary,
+                          cdem_fault *fault) {
+  cdem_run_setup setup = {0};
+  cdem_state checkpoint = {0};
+  cdem_folder_lock *lock = NULL;
+  CDEM_TRY(cdem_folder_lock_take(options->folder, &lock, fault));
+  cdem_status status = read_checkpoint(options, &checkpoint, fault);
+  if (status == CDEM_OK)
+    status = cdem_run_setup_init(options, &checkpoint, &setup, fault);
+  if (status == CDEM_OK)
+    status = cdem_solver_restore(&setup.solver, &checkpoint, fault);
+  if (status == CDEM_OK)
+    status = step_and_finish(&setup, &checkpoint, summary, fault);
+  cdem_run_setup_release(&setup);
+  cdem_state_release(&checkpoint);
+  cdem_folder_lock_drop(&lock);
+  return status;
+}
+
+cdem_status cdem_run(const cdem_run_options *options, cdem_run_summary *summary,
+                     cdem_fault *fault) {
+  *summary = (cdem_run_summary){0};
+  CDEM_REQUIRE(options->resume || options->path != NULL, fault, CDEM_USAGE, "a case is wanted");
+  CDEM_REQUIRE(options->check || options->folder != NULL, fault, CDEM_USAGE,
+               "a folder for the results is wanted");
+  CDEM_REQUIRE(!options->resume || (options->overrides == 0 && !options->check), fault, CDEM_USAGE,
+               "a run that is continued keeps its case: no --set and no --check");
+  if (options->check)
+    return check_only(options, summary, fault);
+  return options->resume ? run_on(options, summary, fault) : run_new(options, summary, fault);
+}

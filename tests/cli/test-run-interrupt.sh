@@ -1,0 +1,77 @@
+#!/bin/sh
+# A run that is interrupted, or killed, and continued gives the same bits as an unbroken one: a column that breaks
+# off its foot and falls, so that interfaces, contact and their histories are on the way.
+# usage: test-run-interrupt.sh BUILD_FOLDER SOURCE_FOLDER
+set -eu
+cdem=$1/cdem
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+export OMP_WAIT_POLICY=passive
+cat >case.yaml <<'EOC'
+title: A beam that breaks under its weight and a push
+end: 20 ms
+mesh: {shape: quad4, count: [24, 4], size: [1.2 m, 0.2 m]}
+materials: {rock: {young: 1 GPa, poisson: 0.2, density: 2500 kg/m3}}
+blocks: {breakable: body}
+interfaces:
+  - {tension: 0.1 MPa, cohesion: 0.2 MPa, friction: 0.5, softening: linear, energy_1: 5 J/m2, energy_2: 20 J/m2}
+contact: {friction: 0.5}
+gravity: [0, -9.81 m/s2]
+supports: [{group: x0, displacement: {x: 0, y: 0}}]
+loads: [{group: x1, traction: {y: {ramp: -50 kPa, over: 2 ms}}}]
+frame_every: 2 ms
+checkpoint_every: 1 ms
+results: {cracks: {of: cracks, take: last}}
+EOC
+"$cdem" run -q --no-figures case.yaml -o whole
+cracks=$(sed -n 's/^    "cracks": \([0-9][0-9]*\).*/\1/p' whole/summary.json)
+[ "${cracks:-0}" -gt 0 ] || { echo "the beam does not break: the test shows nothing"; exit 1; }
+
+# wait_for_rows FOLDER ROWS PROCESS: until the history has come that far
+wait_for_rows() {
+  tries=0
+  while [ ! -e "$1/history.csv" ] || [ "$(wc -l <"$1/history.csv")" -lt "$2" ]; do
+    kill -0 "$3" 2>/dev/null || { echo "$1: ended before it could be broken"; exit 1; }
+    tries=$((tries + 1))
+    [ $tries -lt 6000 ] || { echo "$1: no rows appeared"; exit 1; }
+    sleep 0.01
+  done
+}
+
+same() {
+  for file in history.csv body.pvd interfaces.pvd; do
+    cmp "whole/$file" "$1/$file" || { echo "$1: $file differs"; exit 1; }
+  done
+  diff -r whole/body "$1/body" && diff -r whole/interfaces "$1/interfaces" || { echo "$1: frames differ"; exit 1; }
+}
+
+# Ctrl-C, twice on the way
+"$cdem" run -q --no-figures case.yaml -o broken 2>err &
+process=$!
+wait_for_rows broken 100 $process
+kill -INT $process
+code=0
+wait $process || code=$?
+[ $code -eq 130 ] || { echo "Ctrl-C: exit code $code"; cat err; exit 1; }
+grep -q '^error: interrupted at step .*continue with `cdem run --resume broken`$' err || { cat err; exit 1; }
+[ ! -e broken/summary.json ] || { echo "a broken run has a summary"; exit 1; }
+"$cdem" run -q --no-figures --resume broken 2>err &
+process=$!
+wait_for_rows broken 250 $process
+kill -INT $process
+code=0
+wait $process || code=$?
+[ $code -eq 130 ] || { echo "Ctrl-C: exit code $code"; cat err; exit 1; }
+"$cdem" run -q --no-figures --resume broken
+same broken
+
+# kill -9: rows and frames may be ahead of the checkpoint
+"$cdem" run -q --no-figures case.yaml -o killed &
+process=$!
+wait_for_rows killed 310 $process
+kill -9 $process
+wait $process 2>/dev/null || true
+"$cdem" run -q --no-figures --resume killed
+same killed
+echo "the same bits: $cracks cracks"

@@ -1,0 +1,187 @@
+/* Broken and continued runs, folders in use, folders used before. */
+#include "run/support.h"
+
+static const char box[] =
+    "end: 2 ms\n"
+    "mesh: {shape: quad4, count: [6, 2], size: [1 m, 0.2 m], distortion: 0.1}\n"
+    "materials: {rock: {young: 30 GPa, poisson: 0.25, density: 2700 kg/m3}}\n"
+    "supports: [{group: x0, displacement: {x: 0, y: 0}}]\n"
+    "loads: [{group: x1, traction: {y: {ramp: 1 MPa, over: 0.1 ms}}}]\n"
+    "frame_every: 0.4 ms\n"
+    "stop_when: tip\n"
+    "stop_below: 0.1\n"
+    "probes: {tip: {group: x1, quantity: displacement, component: y}}\n";
+
+/* Wants to stop at the given call. */
+typedef struct {
+  int calls, stop_at;
+} stopper;
+
+static bool report(void *context, const char *what, int64_t done, int64_t total) {
+  stopper *s = context;
+  (void)done;
+  (void)total;
+  if (strncmp(what, "running", 7) == 0)
+    s->calls++;
+  return s->calls < s->stop_at;
+}
+
+static cdem_status run_until(const char *folder, bool resume, int stop_at, int threads,
+                             cdem_fault *fault) {
+  stopper stop = {.stop_at = stop_at};
+  const cdem_progress progress = {.context = &stop, .report = report};
+  const cdem_run_options options = {.path = resume ? NULL : in_scratch("box.yaml"),
+                                    .folder = in_scratch(folder),
+                                    .resume = resume,
+                                    .frames = true,
+                                    .threads = threads,
+                                    .version = "test",
+                                    .commit = "test",
+                                    .progress = &progress};
+  cdem_run_summary summary;
+  cdem_status status = cdem_run(&options, &summary, fault);
+  cdem_run_summary_release(&summary);
+  return status;
+}
+
+/* All but the checkpoint, which holds the wall time. */
+static void check_same_run(const char *a, const char *b) {
+  const char *const files[] = {"history.csv", "body.pvd", "body/body-000000.vtu",
+                               "body/body-000003.vtu"};
+  for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+    char one[256], other[256];
+    snprintf(one, sizeof one, "%s/%s", a, files[i]);
+    snprintf(other, sizeof other, "%s/%s", b, files[i]);
+    assert_true(is_there(one));
+    if (!same_files(one, other))
+      fail_msg("%s is not %s", other, one);
+  }
+}
+
+static void check_same_state(const char *a, const char *b) {
+  cdem_fault fault = {0};
+  cdem_state state[2] = {{0}};
+  const char *const folder[2] = {a, b};
+  for (int i = 0; i < 2; i++) {
+    char path[600];
+    snprintf(path, sizeof path, "%s/checkpoint.h5", in_scratch(folder[i]));
+    check_ok(cdem_read_state(path, &state[i], &fault));
+  }
+  assert_int_equal(state[0].arrays, state[1].arrays);
+  for (int64_t i = 0; i < state[0].arrays; i++) {
+    const cdem_array *one = &state[0].array[i], *other = cdem_state_find(&state[1], one->name);
+    assert_non_null(other);
+    assert_int_equal(one->count, other->count);
+    size_t bytes = (size_t)one->count * cdem_array_size(one->type);
+    if (strcmp(one->name, "run/reals") != 0 && bytes > 0 &&
+        memcmp(one->data, other->data, bytes) != 0)
+      fail_msg("'%s' differs", one->name);
+  }
+  cdem_state_release(&state[0]);
+  cdem_state_release(&state[1]);
+}
+
+static void a_continued_run_gives_the_same_bits(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  write_case("box.yaml", box);
+  check_ok(run_until("whole", false, 1 << 30, 1, &fault));
+  for (int stop_at = 1; stop_at < 6; stop_at += 2) {
+    check_fails(run_until("broken", false, stop_at, 2, &fault), CDEM_INTERRUPTED,
+                "continue with `cdem run --resume");
+    assert_false(is_there("broken/summary.json"));
+    check_fails(run_until("broken", true, 2, 1, &fault), CDEM_INTERRUPTED, "interrupted at step");
+    check_ok(run_until("broken", true, 1 << 30, 1, &fault));
+    assert_true(is_there("broken/summary.json"));
+    check_same_run("whole", "broken");
+    check_same_state("whole", "broken");
+  }
+}
+
+/* What a kill leaves: rows and frames beyond the last checkpoint. */
+static void rows_beyond_the_checkpoint_are_cut_off(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  char command[1400];
+  write_case("box.yaml", box);
+  check_ok(run_until("whole", false, 1 << 30, 1, &fault));
+  check_fails(run_until("killed", false, 2, 1, &fault), CDEM_INTERRUPTED, "interrupted");
+  snprintf(command, sizeof command,
+           "cd '%s' && cp killed/checkpoint.h5 early.h5 && rm -rf killed && cp -r whole killed && "
+           "rm killed/summary.json && cp early.h5 killed/checkpoint.h5",
+           scratch);
+  assert_int_equal(system(command), 0);
+  check_ok(run_until("killed", true, 1 << 30, 1, &fault));
+  check_same_run("whole", "killed");
+  check_same_state("whole", "killed");
+}
+
+static void only_a_broken_run_can_be_continued(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  write_case("box.yaml", box);
+  check_ok(run_until("whole", false, 1 << 30, 1, &fault));
+  check_fails(run_until("whole", true, 1 << 30, 1, &fault), CDEM_INPUT, "has ended");
+  mkdir(in_scratch("empty"), 0777);
+  check_fails(run_until("empty", true, 1 << 30, 1, &fault), CDEM_INPUT, "no run to continue");
+}
+
+static void a_changed_case_is_noticed(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  char command[700];
+  write_case("box.yaml", box);
+  check_fails(run_until("changed", false, 2, 1, &fault), CDEM_INTERRUPTED, "interrupted");
+  snprintf(command, sizeof command, "sed -i 's/30 GPa/31 GPa/' '%s/changed/case.yaml'", scratch);
+  assert_int_equal(system(command), 0);
+  check_fails(run_until("changed", true, 1 << 30, 1, &fault), CDEM_INPUT, "was changed since");
+}
+
+static void a_folder_in_use_is_refused(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  cdem_folder_lock *lock = NULL;
+  write_case("box.yaml", box);
+  check_ok(cdem_make_folder(in_scratch("taken"), &fault));
+  check_ok(cdem_folder_lock_take(in_scratch("taken"), &lock, &fault));
+  check_fails(run_until("taken", false, 1 << 30, 1, &fault), CDEM_INPUT, "in use by another run");
+  check_fails(run_until("taken", true, 1 << 30, 1, &fault), CDEM_INPUT, "in use by another run");
+  cdem_folder_lock_drop(&lock);
+  check_ok(run_until("taken", false, 1 << 30, 1, &fault));
+}
+
+static void keep_message(void *context, const char *message) {
+  snprintf(context, 200, "%s", message);
+}
+
+static void a_new_run_replaces_an_earlier_one_and_says_so(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  cdem_run_summary summary;
+  char said[200] = "";
+  const cdem_warnings warnings = {.context = said, .warn = keep_message};
+  write_case("box.yaml", box);
+  cdem_run_options options = {.path = in_scratch("box.yaml"),
+                              .folder = in_scratch("again"),
+                              .version = "test",
+                              .commit = "test",
+                              .warnings = &warnings};
+  for (int i = 0; i < 2; i++) {
+    assert_string_equal(said, "");
+    check_ok(cdem_run(&options, &summary, &fault));
+    cdem_run_summary_release(&summary);
+  }
+  assert_non_null(strstr(said, "holds an earlier run, which is replaced"));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_continued_run_gives_the_same_bits),
+      cmocka_unit_test(rows_beyond_the_checkpoint_are_cut_off),
+      cmocka_unit_test(only_a_broken_run_can_be_continued),
+      cmocka_unit_test(a_changed_case_is_noticed),
+      cmocka_unit_test(a_folder_in_use_is_refused),
+      cmocka_unit_test(a_new_run_replaces_an_earlier_one_and_says_so),
+  };
+  return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
+}

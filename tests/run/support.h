@@ -1,0 +1,85 @@
+/* What the tests of room run share: a scratch folder, cases written as text, runs of them. */
+#ifndef CDEM_TESTS_RUN_SUPPORT_H
+#define CDEM_TESTS_RUN_SUPPORT_H
+
+#include "io/run_files.h"
+#include "run/run.h"
+#include "support/test.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char scratch[64];
+
+static int scratch_make(void **state) {
+  (void)state;
+  snprintf(scratch, sizeof scratch, "/tmp/cdem-run-XXXXXX");
+  return mkdtemp(scratch) == NULL;
+}
+
+static int scratch_remove(void **state) {
+  (void)state;
+  char command[128];
+  snprintf(command, sizeof command, "rm -rf '%s'", scratch);
+  return system(command);
+}
+
+/* scratch/NAME; eight at a time. */
+static inline const char *in_scratch(const char *name) {
+  static char path[8][512];
+  static int next;
+  next = (next + 1) % 8;
+  snprintf(path[next], sizeof path[next], "%s/%s", scratch, name);
+  return path[next];
+}
+
+static inline bool is_there(const char *name) {
+  struct stat facts;
+  return stat(in_scratch(name), &facts) == 0 && facts.st_size > 0;
+}
+
+static inline void write_case(const char *name, const char *text) {
+  FILE *file = fopen(in_scratch(name), "w");
+  assert_non_null(file);
+  fputs(text, file);
+  assert_int_equal(fclose(file), 0);
+}
+
+/* Runs scratch/NAME into scratch/FOLDER without pictures. */
+static inline cdem_status run_case(const char *name, const char *folder, int overrides,
+                                   const char *const *override, cdem_run_summary *summary,
+                                   cdem_fault *fault) {
+  const cdem_run_options options = {.path = in_scratch(name),
+                                    .folder = in_scratch(folder),
+                                    .overrides = overrides,
+                                    .override = override,
+                                    .frames = true,
+                                    .threads = 1, /* idle threads only spin in runs this small */
+                                    .version = "test",
+                                    .commit = "test"};
+  return cdem_run(&options, summary, fault);
+}
+
+/* The case fails before anything runs, with this text and the line that is to blame. */
+static inline void check_bad(const char *name, const char *override, const char *text) {
+  cdem_fault fault = {0};
+  cdem_run_summary summary;
+  check_fails(run_case(name, "never", 1, &override, &summary, &fault), CDEM_INPUT, text);
+  assert_false(is_there("never"));
+}
+
+static inline double key_value(const cdem_run_summary *summary, const char *name) {
+  for (int64_t r = 0; r < summary->keys.rows; r++)
+    if (strcmp(cdem_table_at(&summary->keys, r, 0)->text, name) == 0)
+      return cdem_table_at(&summary->keys, r, 1)->real;
+  fail_msg("there is no key result '%s'", name);
+  return NAN;
+}
+
+static inline bool same_files(const char *a, const char *b) {
+  char command[1200];
+  snprintf(command, sizeof command, "cmp -s '%s' '%s'", in_scratch(a), in_scratch(b));
+  return system(command) == 0;
+}
+
+#endif
