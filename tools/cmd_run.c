@@ -4,6 +4,7 @@
 #include "run/run.h"
 #include "version.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +17,8 @@ enum {
   OPTION_NO_FRAMES,
   OPTION_JSON,
   OPTION_CHECK,
-  MOST_OVERRIDES = 64
+  MOST_OVERRIDES = 64,
+  MOST_PATH = 3800 /* leaves room for the names in the folder */
 };
 
 static const struct argp_option option_table[] = {
@@ -24,7 +26,8 @@ static const struct argp_option option_table[] = {
     {"resume", OPTION_RESUME, "DIR", 0, "continue the run in DIR from its checkpoint", 0},
     {"set", OPTION_SET, "KEY=VALUE", 0, "replace a value of the case: --set mesh.parameters.h=0.01",
      0},
-    {"threads", OPTION_THREADS, "N", 0, "threads (default: all); results do not depend on it", 0},
+    {"threads", OPTION_THREADS, "N", 0,
+     "threads (default: as many as the size of the body is worth); results do not depend on it", 0},
     {"check", OPTION_CHECK, NULL, 0, "read and build everything, run nothing", 0},
     {"no-figures", OPTION_NO_FIGURES, NULL, 0, "draw no figures", 0},
     {"no-frames", OPTION_NO_FRAMES, NULL, 0, "write no .pvd and .vtu frames", 0},
@@ -47,14 +50,21 @@ static void add_override(settings *s, const char *text) {
   s->override[s->overrides++] = text;
 }
 
+static const char *folder_name(const char *option, const char *text) {
+  if (text[0] == '\0' || strlen(text) > MOST_PATH)
+    command_usage("%s '%.40s': the name of a folder is wanted, of 1 to %d letters", option, text,
+                  MOST_PATH);
+  return text;
+}
+
 static error_t parse(int key, char *text, struct argp_state *state) {
   settings *s = state->input;
   switch (key) {
   case 'o':
-    s->folder = text;
+    s->folder = folder_name("-o", text);
     return 0;
   case OPTION_RESUME:
-    s->resume = text;
+    s->resume = folder_name("--resume", text);
     return 0;
   case OPTION_SET:
     add_override(s, text);
@@ -124,6 +134,13 @@ static void print_sizes(const cdem_run_summary *r) {
          (long long)r->interfaces);
 }
 
+/* A title may hold what a terminal would obey. */
+static void print_line(const char *text) {
+  for (; *text != '\0'; text++)
+    putchar(iscntrl((unsigned char)*text) ? ' ' : *text);
+  putchar('\n');
+}
+
 static void print_check(const cdem_run_summary *r) {
   print_sizes(r);
   if (r->step > 0.0)
@@ -151,7 +168,7 @@ static void print_keys(const cdem_table *keys) {
 
 static void print_summary(const cdem_run_summary *r, const char *folder) {
   if (r->title != NULL)
-    printf("%s\n", r->title);
+    print_line(r->title);
   print_sizes(r);
   if (r->steps > 0) {
     double work = (double)r->steps * (double)r->elements;

@@ -30,7 +30,7 @@ void cdem_caret_put(const char *text, int line, int column, int width, char *out
   int used =
       snprintf(out, room, "\n  %.*s\n  %*s^", (int)length, begin, before > 0 ? before : 0, "");
   for (char *c = out + 3; *c != '\0' && *c != '\n'; c++)
-    if (*c == '\t')
+    if ((unsigned char)*c < ' ' || *c == 0x7f) /* a tab; or what a terminal would obey */
       *c = ' ';
   for (int i = 1; i < width && column - skipped + i <= SHOWN_WIDTH; i++)
     out[used++] = '~';

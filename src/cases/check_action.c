@@ -160,9 +160,24 @@ static cdem_status check_probe(const cdem_case *cases, const cdem_case_probe *pr
   return CDEM_OK;
 }
 
+/* A unit that was forgotten must not fill the disk. */
+static cdem_status check_often(const cdem_case *cases, const char *key, double every, double most,
+                               cdem_fault *fault) {
+  double times = cases->values.end / every;
+  if (!(times > most)) /* true without an end */
+    return CDEM_OK;
+  return cdem_case_fail(cases, key, CDEM_INPUT, fault,
+                        "'%s' of %g s comes %.3g times until the end at %g s, more than %g times; "
+                        "look at the units of both",
+                        key, every, times, cases->values.end, most);
+}
+
 cdem_status cdem_case_check_output(const cdem_case *cases, cdem_fault *fault) {
   const cdem_case_values *v = &cases->values;
   char key[CDEM_CASE_PATH];
+  CDEM_TRY(check_often(cases, "history_every", v->history_every, 1e8, fault));
+  CDEM_TRY(check_often(cases, "frame_every", v->frame_every, 1e6, fault));
+  CDEM_TRY(check_often(cases, "checkpoint_every", v->checkpoint_every, 1e8, fault));
   for (int64_t i = 0; i < v->probes.count; i++)
     CDEM_TRY(check_probe(cases, &v->probes.item[i], fault));
   for (int64_t i = 0; i < v->results.count; i++) {

@@ -277,7 +277,7 @@ static bool find_crossing(const cdem_contact *contact, const cdem_edge_pair *pai
 
 /* Coefficients and gradients of (1) in contact_law.c for two lines: the turn of the normal is
  * dn = -(n . da) a* - (n . db) b*, with a*, b* dual to a, b in the plane. */
-static void fill_input(const cdem_contact *contact, const crossing *c, cdem_touch *t,
+static void fill_input(const cdem_contact *contact, const crossing *c, const cdem_touch *t,
                        cdem_contact_input *in) {
   const cdem_contact_store *s = contact->store;
   double a_dual[3], b_dual[3];
@@ -297,21 +297,19 @@ static void fill_input(const cdem_contact *contact, const crossing *c, cdem_touc
     if (t->facet >= 0)
       in->slip[i] = c->a[i] * (c->t[0] - t->shape[0]) - c->b[i] * (c->t[1] - t->shape[1]);
   }
-  t->nodes = 4;
+  in->nodes = 4;
   for (int k = 0; k < 2; k++) {
-    t->node[k] = c->one->node[k];
-    t->node[k + 2] = c->two->node[k];
+    in->node[k] = c->one->node[k];
+    in->node[k + 2] = c->two->node[k];
   }
   for (int k = 0; k < 4 && s->v != NULL; k++)
     for (int i = 0; i < 3; i++)
-      in->rate -= in->coefficient[k] * in->normal[i] * s->v[(int64_t)t->node[k] * s->dofs + i];
-  if (in->law->damping > 0.0) {
-    double m[2] = {0.0};
-    for (int k = 0; k < 4; k++)
-      m[k / 2] += fabs(in->coefficient[k]) * s->mass[(int64_t)t->node[k] * s->dofs] /
-                  s->node_area[t->node[k]];
-    in->surface_mass = m[0] * m[1] > 0.0 ? m[0] * m[1] / (m[0] + m[1]) : 0.0;
-  }
+      in->rate -= in->coefficient[k] * in->normal[i] * s->v[(int64_t)in->node[k] * s->dofs + i];
+  double m[2] = {0.0};
+  for (int k = 0; k < 4; k++)
+    m[k / 2] += fabs(in->coefficient[k]) * s->mass[(int64_t)in->node[k] * s->dofs] /
+                s->node_area[in->node[k]];
+  in->surface_mass = m[0] * m[1] > 0.0 ? m[0] * m[1] / (m[0] + m[1]) : 0.0;
 }
 
 static double edge_weight(const cdem_contact *contact, const crossing *c) {
@@ -335,7 +333,7 @@ static bool edge_step(cdem_contact *contact, int64_t i) {
   bool crossed = find_crossing(contact, &s->edge_pair[i], &c);
   if (!crossed || c.gap <= 0.0) {
     if (t->facet >= 0)
-      cdem_touch_end(contact, crossed ? c.gap : t->gap, t);
+      cdem_touch_end(contact, t);
     return true;
   }
   double shallow = 0.1 * fmin(c.one->size, c.two->size);
@@ -351,7 +349,7 @@ static bool edge_step(cdem_contact *contact, int64_t i) {
     return false;
   if (!(in.weight > 0.0) || (t->facet < 0 && !begins) || deep) {
     if (t->facet >= 0)
-      cdem_touch_end(contact, c.gap, t);
+      cdem_touch_end(contact, t);
     return true;
   }
   cdem_touch_update(contact, &in, c.one->facet[0], t);

@@ -11,10 +11,18 @@
  * The last term gives back the moment of the two tangential forces, which act a distance g apart:
  * sum f = 0 and sum x x f = 0 hold exactly, stuck or sliding.
  *
- * Energy of a step, by trapezoids: the work of the bodies on the contact is what is stored more,
- * plus friction (F_t0 + F_t1)/2 . (slipped), plus damping (F_d0 + F_d1)/2 dg. When the weight w
- * changes (facets turn, edges are passed), (w_0 - w_1)/2 (kn g_0 g_1 + kt s_0 . s_1) is what
- * remains; it is booked with the damping and can have either sign.
+ * Energy. What the nodes have put into a contact is measured, not derived: by the trapezoid of the
+ * nodal forces over the nodes' motion of the step, exactly as the kinetic energy of the leapfrog
+ * has it. `stored` is that sum less friction and dashpots. No normal force may be larger than this
+ * energy can drive, F^2 <= 2 K E with K = w kn and E the stored energy less that of the shear
+ * spring; with E = E_0 + F d/2 at the end of a step that closed the gap by d this is
+ *
+ *     F <= (K d + sqrt(K^2 d^2 + 8 K E_0))/2                                              (2)
+ *
+ * which for E_0 = F_0^2/(2 K) + F_0 d/2 is F_0 + K d: a spring of the full stiffness that begins
+ * where the contact began. Under steady conditions (2) lies on or above K g and does nothing. Where
+ * weight, normal or facet change, and where a contact is found already deep, it keeps energy from
+ * being made; what is left when a contact ends is booked as dissipated.
  */
 #include "cdem/contact_store.h"
 
@@ -46,6 +54,12 @@ static double dashpot(const cdem_contact_input *in) {
   return 2.0 * in->law->damping * sqrt(in->law->kn * in->surface_mass);
 }
 
+static void set_nodes(const cdem_contact_input *in, cdem_touch *t) {
+  t->nodes = (uint8_t)in->nodes;
+  for (int k = 0; k < in->nodes; k++)
+    t->node[k] = in->node[k];
+}
+
 static void nodal_forces(const cdem_contact_input *in, double normal, const double tangent[3],
                          cdem_touch *t) {
   for (int i = 0; i < 3; i++) {
@@ -59,38 +73,82 @@ static void nodal_forces(const cdem_contact_input *in, double normal, const doub
   }
 }
 
+/* Half of the work that the nodes did on the contact in this step, with its present forces. */
+static double half_work(const cdem_contact_store *s, const cdem_touch *t) {
+  double sum = 0.0;
+  if (s->v == NULL)
+    return 0.0;
+  for (int k = 0; k < t->nodes; k++) {
+    const double *v = s->v + (int64_t)t->node[k] * s->dofs;
+    for (int i = 0; i < s->dim; i++)
+      sum += t->nodal[k][i] * v[i];
+  }
+  return -0.5 * s->dt * sum;
+}
+
+/* The elastic normal force that energy allows: (2), and near the end of a contact no more than what
+ * can be given back while the gap opens. That takes the step to come as this one, with what the
+ * force itself adds to the motion: with c = dt^2/m per weight, F (|d| + (|d| + c F))/2 <= E_0. */
+static double affordable(const cdem_contact_store *s, const cdem_contact_input *in, double energy,
+                         double d) {
+  double k = in->weight * in->law->kn, square = k * k * d * d + 8.0 * k * energy;
+  double force = fmin(k * in->gap, square > 0.0 ? 0.5 * (k * d + sqrt(square)) : 0.0);
+  if (!(force > 0.0) || d >= 0.0 || !(in->surface_mass > 0.0))
+    return fmax(0.0, force);
+  double c = s->dt * s->dt / (in->surface_mass * in->weight);
+  if (-d + c * force <= in->gap)
+    return force;
+  return fmin(force, 2.0 * fmax(0.0, energy) / (-d + sqrt(d * d + 2.0 * c * fmax(0.0, energy))));
+}
+
+/* The elastic sliding brought to the present plane and weight. A weight that grows makes no energy.
+ */
+static void stick_before(const cdem_contact *contact, const cdem_contact_input *in,
+                         const cdem_touch *t, double before[3]) {
+  double axes[9], grown = t->handed || t->weight >= in->weight ? 1.0 : t->weight / in->weight;
+  cdem_contact_axes(contact, t->facet, axes);
+  to_world(axes, t->stick, before);
+  into_plane(in->normal, before);
+  for (int i = 0; i < 3; i++)
+    before[i] *= sqrt(grown);
+}
+
+/* Energy that the normal spring has before the present force acts. */
+static double normal_energy(const cdem_contact_input *in, const cdem_touch *t, double put_in,
+                            const double before[3], double d) {
+  double kt = in->weight * in->law->kt;
+  double shear = 0.5 * kt * (cdem_dot3(before, before) + cdem_dot3(before, in->slip));
+  return t->stored + put_in - shear - 0.5 * t->dashpot * d;
+}
+
 void cdem_touch_update(const cdem_contact *contact, const cdem_contact_input *in, int32_t facet,
                        cdem_touch *t) {
+  const cdem_contact_store *s = contact->store;
   const cdem_contact_law *law = in->law;
-  double dt = contact->store->dt, w = in->weight, axes[9], before[3] = {0.0}, now[3], slipped[3];
-  double tangent[3], work = 0.0, product = 0.0;
-  bool fresh = t->facet < 0;
-  if (!fresh) {
-    cdem_contact_axes(contact, t->facet, axes);
-    to_world(axes, t->stick, before);
-    into_plane(in->normal, before);
-  }
-  bool continued = !fresh && !t->handed;
-  double normal = fmax(0.0, w * (law->kn * in->gap + dashpot(in) * in->rate));
+  double w = in->weight, before[3] = {0.0}, now[3], tangent[3], axes[9], d = in->rate * s->dt;
+  bool fresh = t->facet < 0, continued = !fresh && !t->handed;
+  bool placed = s->v == NULL || s->dt == 0.0 || t->handed; /* not brought there by a motion */
+  if (!fresh)
+    stick_before(contact, in, t, before);
+  double put_in = continued ? half_work(s, t) : 0.0;
+  double energy = continued ? normal_energy(in, t, put_in, before, d) : 0.0;
+  double elastic = placed ? fmax(0.0, w * law->kn * in->gap) : affordable(s, in, energy, d);
+  double normal = fmax(0.0, elastic + w * dashpot(in) * in->rate), work = 0.0;
   for (int i = 0; i < 3; i++)
     now[i] = before[i] + (continued ? in->slip[i] : 0.0);
   double length = cdem_norm3(now), most = law->friction * normal, trial = w * law->kt * length;
   double keep = trial > most ? most / trial : 1.0;
-  t->sliding = trial > most;
   for (int i = 0; i < 3; i++) {
-    slipped[i] = (1.0 - keep) * now[i];
+    double slipped = (1.0 - keep) * now[i];
     now[i] *= keep;
     tangent[i] = -w * law->kt * now[i];
-    work += 0.5 * law->kt * (t->weight * before[i] + w * now[i]) * slipped[i];
-    product += before[i] * now[i];
+    work += 0.5 * law->kt * (t->weight * before[i] + w * now[i]) * slipped;
   }
-  double drag = normal - w * law->kn * in->gap;
-  t->friction = continued ? work : 0.0;
-  t->damping = fresh || t->handed ? 0.0 : 0.5 * (t->dashpot + drag) * in->rate * dt;
-  if (continued)
-    t->damping += 0.5 * (t->weight - w) * (law->kn * t->gap * in->gap + law->kt * product);
-  if (fresh)
-    t->damping = 0.5 * drag * in->rate * dt;
+  double drag = normal - elastic, shear = 0.5 * w * law->kt * cdem_dot3(now, now);
+  t->friction = continued ? fmax(0.0, work) : 0.0;
+  t->damping = fmax(0.0, 0.5 * ((continued ? t->dashpot : 0.0) + drag) * d);
+  t->stored = continued ? t->stored : 0.0;
+  t->sliding = trial > most;
   t->dashpot = drag;
   t->facet = facet;
   t->handed = 0;
@@ -98,20 +156,25 @@ void cdem_touch_update(const cdem_contact *contact, const cdem_contact_input *in
   t->gap = in->gap;
   t->kn = law->kn;
   t->kt = law->kt;
-  t->stored = 0.5 * w * (law->kn * in->gap * in->gap + law->kt * cdem_dot3(now, now));
+  set_nodes(in, t);
+  nodal_forces(in, normal, tangent, t);
+  if (placed)
+    t->stored = 0.5 * elastic * in->gap + shear;
+  else
+    t->stored += put_in + half_work(s, t) - t->friction - t->damping;
+  double left = !placed && t->stored < shear ? fmax(0.0, t->stored) / shear : 1.0;
   cdem_contact_axes(contact, facet, axes);
   to_local(axes, now, t->stick);
-  nodal_forces(in, normal, tangent, t);
+  for (int i = 0; i < 3; i++)
+    t->stick[i] *= sqrt(left);
 }
 
-/* A contact that is no more, with `gap` to its last plane: what it still stored is lost. Parted
- * normally there is nothing left in the normal spring but the error of the step. */
-void cdem_touch_end(const cdem_contact *contact, double gap, cdem_touch *t) {
-  double friction = 0.5 * t->weight * t->kt * cdem_dot3(t->stick, t->stick);
-  double damping = gap > 0.0 ? 0.5 * t->weight * t->kn * t->gap * gap : 0.0;
-  (void)contact;
+/* A contact that is no more: what it still stored is lost. */
+void cdem_touch_end(const cdem_contact *contact, cdem_touch *t) {
+  double left = fmax(0.0, t->stored + half_work(contact->store, t));
+  double shear = 0.5 * t->weight * t->kt * cdem_dot3(t->stick, t->stick);
   memset(t, 0, sizeof *t);
   t->facet = -1;
-  t->friction = friction;
-  t->damping = damping;
+  t->friction = fmin(left, shear);
+  t->damping = left - t->friction;
 }

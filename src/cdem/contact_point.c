@@ -159,34 +159,33 @@ static void slip_since(const cdem_contact *contact, const cdem_contact_point *po
     slip[i] -= off * p->normal[i];
 }
 
-static double overlap_rate(const cdem_contact_store *s, const cdem_contact_input *in,
-                           const cdem_touch *t) {
+static double overlap_rate(const cdem_contact_store *s, const cdem_contact_input *in) {
   double rate = 0.0;
   if (s->v == NULL)
     return 0.0;
-  for (int k = 0; k < t->nodes; k++)
+  for (int k = 0; k < in->nodes; k++)
     for (int i = 0; i < s->dim; i++)
-      rate -= in->coefficient[k] * in->normal[i] * s->v[(int64_t)t->node[k] * s->dofs + i];
+      rate -= in->coefficient[k] * in->normal[i] * s->v[(int64_t)in->node[k] * s->dofs + i];
   return rate;
 }
 
 /* Nodes and coefficients: the master's with -N, then the slave or its facet. */
 static void fill_nodes(const cdem_contact *contact, const cdem_contact_point *point,
                        const cdem_facet *f, const double shape[4], const double own[4],
-                       cdem_touch *t, cdem_contact_input *in) {
+                       cdem_contact_input *in) {
   const cdem_facet *slave = &contact->blocks->facet[point->facet];
   int n = f->corners;
   for (int k = 0; k < n; k++) {
-    t->node[k] = f->node[k];
+    in->node[k] = f->node[k];
     in->coefficient[k] = -shape[k];
   }
   for (int k = 0; k < slave->corners; k++) {
     if (own[k] == 0.0)
       continue;
-    t->node[n] = slave->node[k];
+    in->node[n] = slave->node[k];
     in->coefficient[n++] = own[k];
   }
-  t->nodes = (uint8_t)n;
+  in->nodes = n;
 }
 
 double cdem_contact_lever(const cdem_contact *contact, const cdem_contact_point *point,
@@ -198,9 +197,12 @@ double cdem_contact_lever(const cdem_contact *contact, const cdem_contact_point 
   if (!cdem_contact_place(contact, point, master, (const double(*)[3])corner, &p))
     return 0.0;
   cdem_contact_shapes(contact, master, (const double(*)[3])corner, &p, shape, in.gradient);
-  fill_nodes(contact, point, &contact->blocks->facet[master], shape, p.own, t, &in);
-  for (int k = 0; k < t->nodes; k++)
+  fill_nodes(contact, point, &contact->blocks->facet[master], shape, p.own, &in);
+  t->nodes = (uint8_t)in.nodes;
+  for (int k = 0; k < in.nodes; k++) {
+    t->node[k] = in.node[k];
     t->nodal[k / 3][k % 3] = in.coefficient[k];
+  }
   return cdem_contact_weight(contact, point, master, &p);
 }
 
@@ -217,15 +219,15 @@ static void press(cdem_contact *contact, const cdem_contact_point *point, int32_
   in.weight = over ? cdem_contact_weight(contact, point, master, &p) : 0.0;
   if (!(in.weight > 0.0)) {
     if (t->facet >= 0)
-      cdem_touch_end(contact, p.gap, t);
+      cdem_touch_end(contact, t);
     return;
   }
   cdem_contact_shapes(contact, master, (const double(*)[3])corner, &p, shape, in.gradient);
-  fill_nodes(contact, point, f, shape, p.own, t, &in);
+  fill_nodes(contact, point, f, shape, p.own, &in);
   for (int i = 0; i < 3; i++)
     in.normal[i] = p.normal[i];
-  in.rate = overlap_rate(s, &in, t);
-  in.surface_mass = in.law->damping > 0.0 ? surface_mass(contact, point, f, shape) : 0.0;
+  in.rate = overlap_rate(s, &in);
+  in.surface_mass = surface_mass(contact, point, f, shape);
   if (t->facet >= 0)
     slip_since(contact, point, t, &p, in.slip);
   cdem_touch_update(contact, &in, master, t);
@@ -235,15 +237,6 @@ static void press(cdem_contact *contact, const cdem_contact_point *point, int32_
   }
   for (int i = 0; i < 3; i++)
     t->position[i] = p.foot[i];
-}
-
-static void leave(cdem_contact *contact, const cdem_contact_point *point, cdem_touch *t) {
-  double corner[4][3];
-  cdem_projection p;
-  cdem_contact_corners(contact, t->facet, corner);
-  cdem_contact_project(contact, t->facet, (const double(*)[3])corner,
-                       contact->store->x + 3 * (int64_t)point->node, &p);
-  cdem_touch_end(contact, p.gap, t);
 }
 
 int64_t cdem_contact_point_step(cdem_contact *contact, int32_t point) {
@@ -258,7 +251,7 @@ int64_t cdem_contact_point_step(cdem_contact *contact, int32_t point) {
     else if (s->deep[i] >= 0)
       failed = i;
     else if (t->facet >= 0)
-      leave(contact, &s->point[point], t);
+      cdem_touch_end(contact, t);
   }
   return failed;
 }

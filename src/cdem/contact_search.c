@@ -112,7 +112,7 @@ static cdem_touch *find_slot(cdem_contact_store *s, int32_t facet, int corner, i
 
 /* Contacts that are no longer near anything end here. */
 static void lose(cdem_contact_store *s, cdem_touch touch, const cdem_contact *contact) {
-  cdem_touch_end(contact, 0.0, &touch);
+  cdem_touch_end(contact, &touch);
   s->friction += touch.friction;
   s->damping += touch.damping;
 }

@@ -130,7 +130,7 @@ void cdem_contact_fields_release(cdem_contact_fields *fields) {
 
 /* ---- checkpoints ---- */
 
-enum { REALS = 26, IDS = 18, SCALARS = 3, COUNTERS = 8 };
+enum { REALS = 50, IDS = 18, SCALARS = 3, COUNTERS = 8 };
 
 static void pack(const cdem_touch *t, double *real, int32_t *id) {
   double scalar[] = {t->weight, t->gap, t->kn, t->kt, t->dashpot, t->stored};
@@ -141,6 +141,7 @@ static void pack(const cdem_touch *t, double *real, int32_t *id) {
   memcpy(real + 16, t->normal, 3 * sizeof *real);
   memcpy(real + 19, t->position, 3 * sizeof *real);
   memcpy(real + 22, t->own, 4 * sizeof *real);
+  memcpy(real + 26, t->nodal, sizeof t->nodal);
   int32_t small[] = {t->facet, t->nodes, t->sliding, t->handed};
   memcpy(id, small, sizeof small);
   memcpy(id + 4, t->node, 8 * sizeof *id);
@@ -160,6 +161,7 @@ static void unpack(const double *real, const int32_t *id, cdem_touch *t) {
   memcpy(t->normal, real + 16, 3 * sizeof *real);
   memcpy(t->position, real + 19, 3 * sizeof *real);
   memcpy(t->own, real + 22, 4 * sizeof *real);
+  memcpy(t->nodal, real + 26, sizeof t->nodal);
   t->facet = id[0];
   t->nodes = (uint8_t)id[1];
   t->sliding = (uint8_t)id[2];

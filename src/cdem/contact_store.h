@@ -26,7 +26,7 @@ typedef struct {
   double weight, gap; /* m^2, m (overlap positive) */
   double kn, kt;      /* Pa/m */
   double dashpot;     /* N, of F_n */
-  double stored;      /* J */
+  double stored;      /* J, what the nodes have put in and not got back */
   double friction, damping; /* J, dissipated in the last step */
   double force[3], normal[3], position[3];
   double nodal[8][3]; /* N */
@@ -190,13 +190,15 @@ typedef struct {
   const cdem_contact_law *law;
   double weight, gap, rate; /* m^2, m, m/s */
   double normal[3];
-  double slip[3];        /* of this step, in the plane, geometric */
+  double slip[3]; /* of this step, in the plane, geometric */
+  int nodes;
+  int32_t node[8];
   double coefficient[8]; /* of the force on each node */
   double gradient[8][3]; /* of the correction of moments */
-  double surface_mass;   /* kg/m^2, for the damping */
+  double surface_mass;   /* kg/m^2, of the two sides in series */
 } cdem_contact_input;
 void cdem_touch_update(const cdem_contact *contact, const cdem_contact_input *input, int32_t facet,
                        cdem_touch *touch);
-void cdem_touch_end(const cdem_contact *contact, double gap, cdem_touch *touch);
+void cdem_touch_end(const cdem_contact *contact, cdem_touch *touch);
 
 #endif

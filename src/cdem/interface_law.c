@@ -289,6 +289,21 @@ static double fallen(const cdem_interface_law *law, const cdem_interface_point *
   return energy - s->work->friction;
 }
 
+/* Friction of a failed point: the mean of the tractions at both ends times the slip, which is what
+ * the tractions really did in this step; the strength at its start need not have been reached. */
+static double rubbed(const cdem_interface_law *law, const cdem_interface_point *before,
+                     const step *s) {
+  double old[3], stored = 0, work = 0;
+  stored_energy(law, before, before->last, old);
+  for (int i = 1; i < 3; i++) {
+    stored += old[i] * (before->last[i] - before->plastic[i]) / 2;
+    work += (old[i] + s->tau[i - 1]) / 2 * (s->delta[i] - before->last[i]);
+  }
+  double lifted = s->point->dilated - before->dilated;
+  return work + stored - s->stored[1] - s->work->fracture +
+         (fmin(0, old[0]) + fmin(0, s->sigma)) / 2 * lifted;
+}
+
 /* A brittle point keeps its strength to the end of the step in which it fails. */
 static void fail_brittle(step *s) {
   cdem_interface_point *point = s->point;
@@ -297,8 +312,6 @@ static void fail_brittle(step *s) {
     return;
   point->damage = 1;
   point->falling = 1;
-  for (int i = 0; i < 3; i++)
-    point->last[i] = s->delta[i];
   mark(point, s->failed[0] ? 0 : 1);
 }
 
@@ -325,7 +338,11 @@ void cdem_interface_law_update(const cdem_interface_law *law, const double delta
   }
   if (before.falling)
     work->fracture = fallen(law, &before, &s);
+  else if (before.damage >= 1)
+    work->friction = rubbed(law, &before, &s);
   fail_brittle(&s);
+  for (int i = 0; i < 3 && point->damage >= 1; i++)
+    point->last[i] = delta[i];
   point->pressure = -s.sigma;
   /* (5): the energy a spring came in with is not of its own work; it goes out with the damage. */
   double share = point->falling ? 0 : point->damage, shared = before.falling ? 0 : before.damage;

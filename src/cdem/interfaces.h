@@ -75,7 +75,7 @@ typedef struct {
   double pressure;        /* at the last update, Pa */
   double credit[3];       /* J/m^2 stored when the spring came in loaded, which nobody worked on it:
                              taken off fracture and friction as damage grows, and off what is stored */
-  double last[3];         /* delta of the step in which a brittle point failed */
+  double last[3];         /* delta at the last update, once the point has failed */
   uint8_t state;          /* cdem_interface_state */
   uint8_t falling;        /* that was the last step: the traction is still that of the strength */
 } cdem_interface_point;

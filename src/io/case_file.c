@@ -3,6 +3,7 @@
 
 #include "io/case_read.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -247,6 +248,10 @@ static void settle(cdem_case *read) {
     v->contact.active = cdem_case_given(read, "contact");
   if (!cdem_case_given(read, "local_damping"))
     v->local_damping = v->analysis == CDEM_ANALYSIS_RELAXATION ? 0.8 : 0.0;
+  if (v->analysis == CDEM_ANALYSIS_DYNAMIC) { /* NaN without an end, which is an error anyway */
+    v->history_every = isnan(v->history_every) ? v->end / 400.0 : v->history_every;
+    v->frame_every = isnan(v->frame_every) ? v->end / 20.0 : v->frame_every;
+  }
   for (int64_t m = 0; m < v->materials.count; m++)
     v->cosserat = v->cosserat || cdem_material_is_cosserat(&v->materials.item[m].material);
 }

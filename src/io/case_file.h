@@ -14,6 +14,13 @@
 cdem_status cdem_read_case(const char *path, int overrides, const char *const *override,
                            cdem_case *read, cdem_fault *fault);
 
+/* Path of the case's mesh file, which is relative to the case; newly allocated, NULL: no memory. */
+char *cdem_case_mesh_path(const cdem_case *cases, cdem_fault *fault);
+/* Makes the kept text (cases->source) name that file from the root on, so that a copy of the case
+ * can be run from any folder. The overrides are those the case was read with. */
+cdem_status cdem_case_settle_mesh(cdem_case *cases, int overrides, const char *const *override,
+                                  cdem_fault *fault);
+
 /* Help on a section or key ("interfaces", "interfaces.tension"; "case" or NULL: the overview).
  * CDEM_USAGE with the nearest name when there is none. */
 cdem_status cdem_write_case_help(FILE *stream, const char *topic, cdem_fault *fault);

@@ -1,7 +1,9 @@
 /* Folders, locks and whole text files. */
+#include "io/gnuplot.h"
 #include "io/output.h"
 #include "io/run_files.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -43,6 +45,60 @@ cdem_status cdem_make_folder(const char *folder, cdem_fault *fault) {
     *at = keep;
   }
   free(path);
+  return status;
+}
+
+/* ---- pictures ---- */
+
+/* Is this a script of ours? */
+static bool draws(const char *path) {
+  char line[sizeof CDEM_GNUPLOT_FIRST_LINE] = "";
+  FILE *file = fopen(path, "rbe");
+  if (file == NULL)
+    return false;
+  size_t got = fread(line, 1, sizeof line - 1, file);
+  fclose(file);
+  return got == sizeof line - 1 && strcmp(line, CDEM_GNUPLOT_FIRST_LINE) == 0;
+}
+
+/* Removes STEM.png and so on of the script STEM.gp; the script last, so that what a failure leaves
+ * is found again. */
+static cdem_status clear_figure(const char *folder, const char *script, cdem_fault *fault) {
+  static const char *const ending[] = {"png", "svg", "dat", "gp"};
+  char *path = cdem_join_path(folder, script, fault);
+  if (path == NULL)
+    return CDEM_MEMORY;
+  cdem_status status = CDEM_OK;
+  for (size_t i = 0; status == CDEM_OK && i < sizeof ending / sizeof ending[0]; i++) {
+    if (i == 0 && !draws(path))
+      break;
+    char *other = cdem_allocate((int64_t)strlen(path) + 2, 1, fault);
+    if (other == NULL) {
+      status = CDEM_MEMORY;
+      break;
+    }
+    sprintf(other, "%.*s%s", (int)strlen(path) - 2, path, ending[i]);
+    if (unlink(other) != 0 && errno != ENOENT)
+      status = cdem_fail(fault, CDEM_FILE,
+                         "cannot remove '%s' of an earlier run: %s; choose another folder", other,
+                         strerror(errno));
+    free(other);
+  }
+  free(path);
+  return status;
+}
+
+cdem_status cdem_clear_figures(const char *folder, cdem_fault *fault) {
+  DIR *list = opendir(folder);
+  cdem_status status = CDEM_OK;
+  if (list == NULL)
+    return CDEM_OK;
+  for (struct dirent *entry; status == CDEM_OK && (entry = readdir(list)) != NULL;) {
+    size_t length = strlen(entry->d_name);
+    if (length > 3 && strcmp(entry->d_name + length - 3, ".gp") == 0)
+      status = clear_figure(folder, entry->d_name, fault);
+  }
+  closedir(list);
   return status;
 }
 

@@ -249,7 +249,7 @@ int cdem_gnuplot_letters(const char *text) {
 
 void cdem_gnuplot_begin(FILE *stream, const char *name, double width, double height,
                         const char *more) {
-  fputs("# draws the .png and .svg beside it: gnuplot THIS_FILE, in this folder\n", stream);
+  fputs(CDEM_GNUPLOT_FIRST_LINE "\n", stream);
   const char *const kind[] = {"png", "svg", "data"}, *const ending[] = {".png", ".svg", ".dat"};
   for (int i = 0; i < 3; i++) {
     fprintf(stream, "if (!exists('%s')) %s = ", kind[i], kind[i]);

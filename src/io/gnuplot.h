@@ -19,6 +19,10 @@ typedef struct {
 cdem_status cdem_gnuplot_draw(const char *folder, const char *name, const cdem_drawing *drawing,
                               cdem_fault *fault);
 
+/* By this line a script is known as one of ours. */
+#define CDEM_GNUPLOT_FIRST_LINE                                                                    \
+  "# draws the .png and .svg beside it: gnuplot THIS_FILE, in this folder"
+
 /* ---- pieces of scripts ---- */
 
 /* Size and type of the letters of all pictures, points of 4/3 pixel. */

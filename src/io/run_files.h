@@ -48,6 +48,9 @@ cdem_status cdem_mesh_from_state(const cdem_state *state, const char *prefix, cd
 
 /* ---- folder and lock (folder.c) ---- */
 
+/* Removes the pictures that were drawn into a folder, with the scripts and data that drew them;
+ * what else is there stays, and so does the folder. No failure when there is none. */
+cdem_status cdem_clear_figures(const char *folder, cdem_fault *fault);
 /* Makes a folder and those above it; no failure when it is there. */
 cdem_status cdem_make_folder(const char *path, cdem_fault *fault);
 /* Takes FOLDER/.lock (flock; gone with the process) in a folder that is there. CDEM_INPUT "is in

@@ -38,7 +38,8 @@ static cdem_status cut(cdem_run_setup *setup, cdem_fault *fault) {
                                        .joints = (int)blocks->joints.count,
                                        .joint_group = texts(&blocks->joints)};
   cdem_status status = cdem_blocks_init(&options, &setup->blocks, fault);
-  return status == CDEM_INPUT ? cdem_case_blame(&setup->cases, "blocks", fault) : status;
+  const char *key = cdem_case_given(&setup->cases, "blocks") ? "blocks" : "mesh";
+  return status == CDEM_INPUT ? cdem_case_blame(&setup->cases, key, fault) : status;
 }
 
 /* Index of the material for cells of no named group; -1 when every material has groups. */

@@ -27,6 +27,14 @@ static cdem_status add_support(cdem_run_setup *setup, int64_t entry, int compone
       .component = dof,
       .velocity = velocity,
       .series = (velocity ? &wanted->velocity : &wanted->displacement)->component[component]};
+  for (int i = 0; i < c->supports; i++)
+    if (c->support[i].component == dof && strcmp(c->support[i].name, wanted->group) == 0) {
+      char full[128];
+      snprintf(full, sizeof full, "%s.%s", key, cdem_run_component[component]);
+      return cdem_case_fail(&setup->cases, full, CDEM_INPUT, fault,
+                            "an entry above prescribes %s of group '%s' already; leave one out",
+                            cdem_run_component[component], wanted->group);
+    }
   int32_t *node;
   CDEM_TRY(cdem_grow(&c->support, &c->capacity[0], c->supports + 1, sizeof *c->support, fault));
   CDEM_TRY(group_nodes(setup, cdem_run_key(key, "supports", entry, "group"), wanted->group,

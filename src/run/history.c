@@ -148,6 +148,12 @@ static cdem_status check_names(const cdem_run_setup *setup, const cdem_table *ta
                                cdem_fault *fault) {
   const cdem_case_values *values = cdem_run_values(setup);
   char key[96];
+  for (int64_t p = 0; p < values->probes.count; p++)
+    if (cdem_table_find(table, values->probes.item[p].name) >= 0)
+      return cdem_case_fail(
+          &setup->cases, cdem_run_named_key(key, "probes", values->probes.item[p].name, ""),
+          CDEM_INPUT, fault, "'%s' is a column of this history; give the probe another name",
+          values->probes.item[p].name);
   if (values->stop_when != NULL)
     CDEM_TRY(check_column(setup, table, "stop_when", values->stop_when, fault));
   for (int64_t i = 0; i < values->curves.count; i++) {

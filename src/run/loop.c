@@ -17,7 +17,8 @@ static const double wall_between_checkpoints = 300.0; /* s */
 
 /* Multiples of `every` that the time has reached, to half a step. */
 static int64_t reached(const cdem_solver *solver, double every) {
-  return (int64_t)floor((solver->time + 0.5 * solver->step) / every);
+  double times = floor((solver->time + 0.5 * solver->step) / every);
+  return times < 9e18 ? (int64_t)times : INT64_MAX - 1;
 }
 
 /* Is one due? Then *next is the one after. */
@@ -34,16 +35,14 @@ static bool row_is_due(cdem_run_output *output) {
   const cdem_solver *solver = &output->setup->solver;
   if (values->analysis == CDEM_ANALYSIS_RELAXATION && isnan(values->history_every))
     return solver->steps % ROW_EVERY == 0;
-  double every = isnan(values->history_every) ? values->end / 400.0 : values->history_every;
-  return due(solver, every, &output->counters.next_row);
+  return due(solver, values->history_every, &output->counters.next_row);
 }
 
 static bool frame_is_due(cdem_run_output *output) {
   const cdem_case_values *values = cdem_run_values(output->setup);
   if (values->analysis == CDEM_ANALYSIS_RELAXATION && isnan(values->frame_every))
     return false;
-  double every = isnan(values->frame_every) ? values->end / 20.0 : values->frame_every;
-  return due(&output->setup->solver, every, &output->counters.next_frame);
+  return due(&output->setup->solver, values->frame_every, &output->counters.next_frame);
 }
 
 static bool checkpoint_is_due(cdem_run_output *output) {

@@ -1,29 +1,16 @@
 /* The mesh of a case: read from a file, or a grid. */
+#include "io/case_file.h"
 #include "run/setup.h"
 
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Shapes of a grid, in the order of the choices of `mesh.shape`. */
 static const char *const grid_shape[] = {"tri3", "quad4", "tet4", "pyr5", "wedge6", "hex8"};
 
-/* The file as written is relative to the folder of the case file. */
-static char *resolve(const char *path_of_case, const char *file, cdem_fault *fault) {
-  const char *slash = strrchr(path_of_case, '/');
-  size_t folder = file[0] == '/' || slash == NULL ? 0 : (size_t)(slash - path_of_case) + 1;
-  char *path = cdem_allocate((int64_t)(folder + strlen(file) + 1), 1, fault);
-  if (path == NULL)
-    return NULL;
-  memcpy(path, path_of_case, folder);
-  strcpy(path + folder, file);
-  return path;
-}
-
 static cdem_status read_file(cdem_run_setup *setup, cdem_fault *fault) {
   const cdem_case_mesh *wanted = &cdem_run_values(setup)->mesh;
   int count = (int)wanted->parameters.count;
-  char *path = resolve(setup->cases.path, wanted->file, fault);
+  char *path = cdem_case_mesh_path(&setup->cases, fault);
   const char **name = cdem_allocate(count, sizeof *name, fault);
   double *value = cdem_allocate(count, sizeof *value, fault);
   cdem_status status = path == NULL || name == NULL || value == NULL ? CDEM_MEMORY : CDEM_OK;

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { COUNTS = 7, SUMS = 2 };
+enum { COUNTS = 7, SUMS = 3 };
 
 const char *cdem_run_path(char text[4096], const char *folder, const char *name) {
   snprintf(text, 4096, "%s/%s", folder, name);
@@ -45,7 +45,8 @@ static void counters_in(const int64_t counts[COUNTS], cdem_run_counters *c) {
 static cdem_status fill_state(const cdem_run_output *output, cdem_state *state, cdem_fault *fault) {
   const cdem_run_setup *setup = output->setup;
   int64_t counts[COUNTS];
-  const int64_t sums[SUMS] = {(int64_t)setup->case_sum, (int64_t)setup->mesh_sum};
+  const int64_t sums[SUMS] = {(int64_t)setup->case_sum, (int64_t)setup->mesh_sum,
+                              (int64_t)setup->kept_sum};
   const double reals[2] = {output->counters.peak, cdem_run_output_wall(output)};
   counters_out(&output->counters, counts);
   CDEM_TRY(cdem_mesh_to_state(&setup->mesh, "mesh", state, fault));
@@ -73,10 +74,11 @@ static cdem_status restore(cdem_run_output *output, const cdem_state *state, cde
   CDEM_TRY(cdem_state_get(state, "run/counts", CDEM_ARRAY_INT64, COUNTS, counts, fault));
   CDEM_TRY(cdem_state_get(state, "run/sums", CDEM_ARRAY_INT64, SUMS, sums, fault));
   CDEM_TRY(cdem_state_get(state, "run/reals", CDEM_ARRAY_REAL, 2, reals, fault));
-  CDEM_REQUIRE((uint64_t)sums[0] == output->setup->case_sum, fault, CDEM_INPUT,
+  CDEM_REQUIRE((uint64_t)sums[2] == output->setup->kept_sum, fault, CDEM_INPUT,
                "%s/case.yaml is not the case of the checkpoint beside it: it was changed since; "
                "start a new run",
                output->options->folder);
+  output->setup->case_sum = (uint64_t)sums[0];
   counters_in(counts, &output->counters);
   output->counters.peak = reals[0];
   output->counters.wall = reals[1];

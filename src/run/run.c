@@ -27,6 +27,35 @@ static cdem_status write_case(const cdem_run_setup *setup, cdem_fault *fault) {
   return status;
 }
 
+static bool is_there(const char *folder, const char *name) {
+  char path[4096];
+  return access(cdem_run_path(path, folder, name), F_OK) == 0;
+}
+
+/* Every folder of a run holds a lock file. Without one, files of these names are somebody else's:
+ * the very case that is to be run, for instance. */
+static cdem_status check_owner(const cdem_run_options *options, cdem_fault *fault) {
+  static const char *const own[] = {"case.yaml", "summary.json", "checkpoint.h5", "history.csv"};
+  if (is_there(options->folder, ".lock"))
+    return CDEM_OK;
+  for (size_t i = 0; i < sizeof own / sizeof own[0]; i++)
+    CDEM_REQUIRE(!is_there(options->folder, own[i]), fault, CDEM_INPUT,
+                 "the folder '%s' holds a file '%s' that no run wrote and this one would replace; "
+                 "choose another folder with -o",
+                 options->folder, own[i]);
+  return CDEM_OK;
+}
+
+/* Pictures and frames that the new run may not make again. */
+static cdem_status clear_pictures(const cdem_run_options *options, cdem_fault *fault) {
+  char path[4096];
+  cdem_frame_writer *frames = NULL;
+  CDEM_TRY(cdem_clear_figures(cdem_run_path(path, options->folder, "figures"), fault));
+  CDEM_TRY(cdem_frame_writer_create(options->folder, 0, &frames, fault));
+  cdem_frame_writer_destroy(&frames);
+  return CDEM_OK;
+}
+
 /* Takes the folder for a new run. What an earlier run left is replaced; its summary and checkpoint
  * go first, so that they never stand beside files of another run. */
 static cdem_status clear_folder(const cdem_run_options *options, cdem_fault *fault) {
@@ -45,7 +74,18 @@ static cdem_status clear_folder(const cdem_run_options *options, cdem_fault *fau
     snprintf(message, sizeof message, "the folder '%s' holds an earlier run, which is replaced",
              options->folder);
     warn(options, message);
+    CDEM_TRY(clear_pictures(options, fault));
   }
+  return CDEM_OK;
+}
+
+/* Asked before the lock is taken, so that a folder of somebody else's stays as it is. */
+static cdem_status check_folder(const cdem_run_options *options, cdem_fault *fault) {
+  CDEM_REQUIRE(access(options->folder, F_OK) == 0, fault, CDEM_INPUT,
+               "there is no folder '%s'; name the folder of the run that is to be continued",
+               options->folder);
+  CDEM_REQUIRE(is_there(options->folder, "checkpoint.h5"), fault, CDEM_INPUT,
+               "there is no run to continue in '%s': it has no checkpoint.h5", options->folder);
   return CDEM_OK;
 }
 
@@ -53,11 +93,8 @@ static cdem_status clear_folder(const cdem_run_options *options, cdem_fault *fau
 static cdem_status read_checkpoint(const cdem_run_options *options, cdem_state *state,
                                    cdem_fault *fault) {
   char path[4096];
-  CDEM_REQUIRE(access(cdem_run_path(path, options->folder, "checkpoint.h5"), F_OK) == 0, fault,
-               CDEM_INPUT, "there is no run to continue in '%s': it has no checkpoint.h5",
-               options->folder);
-  CDEM_REQUIRE(access(cdem_run_path(path, options->folder, "summary.json"), F_OK) != 0, fault,
-               CDEM_INPUT, "the run in '%s' has ended: summary.json is there; nothing to continue",
+  CDEM_REQUIRE(!is_there(options->folder, "summary.json"), fault, CDEM_INPUT,
+               "the run in '%s' has ended: summary.json is there; nothing to continue",
                options->folder);
   return cdem_read_state(cdem_run_path(path, options->folder, "checkpoint.h5"), state, fault);
 }
@@ -116,6 +153,8 @@ static cdem_status run_new(const cdem_run_options *options, cdem_run_summary *su
   cdem_status status = cdem_run_history_init(&setup, &history, fault);
   cdem_run_history_release(&history, &setup);
   if (status == CDEM_OK)
+    status = check_owner(options, fault);
+  if (status == CDEM_OK)
     status = cdem_make_folder(options->folder, fault);
   if (status == CDEM_OK)
     status = cdem_folder_lock_take(options->folder, &lock, fault);
@@ -135,6 +174,7 @@ static cdem_status run_on(const cdem_run_options *options, cdem_run_summary *sum
   cdem_run_setup setup = {0};
   cdem_state checkpoint = {0};
   cdem_folder_lock *lock = NULL;
+  CDEM_TRY(check_folder(options, fault));
   CDEM_TRY(cdem_folder_lock_take(options->folder, &lock, fault));
   cdem_status status = read_checkpoint(options, &checkpoint, fault);
   if (status == CDEM_OK)
@@ -153,8 +193,8 @@ cdem_status cdem_run(const cdem_run_options *options, cdem_run_summary *summary,
                      cdem_fault *fault) {
   *summary = (cdem_run_summary){0};
   CDEM_REQUIRE(options->resume || options->path != NULL, fault, CDEM_USAGE, "a case is wanted");
-  CDEM_REQUIRE(options->check || options->folder != NULL, fault, CDEM_USAGE,
-               "a folder for the results is wanted");
+  CDEM_REQUIRE(options->check || (options->folder != NULL && options->folder[0] != '\0'), fault,
+               CDEM_USAGE, "a folder for the results is wanted");
   CDEM_REQUIRE(!options->resume || (options->overrides == 0 && !options->check), fault, CDEM_USAGE,
                "a run that is continued keeps its case: no --set and no --check");
   if (options->check)

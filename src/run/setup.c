@@ -148,11 +148,15 @@ static uint64_t checksum(uint64_t sum, const void *data, size_t bytes) {
   return sum;
 }
 
-static void sum_inputs(cdem_run_setup *setup) {
-  const uint64_t start = 0xcbf29ce484222325u;
+static const uint64_t SUM_START = 0xcbf29ce484222325u;
+
+static uint64_t sum_text(const char *text) {
+  return checksum(SUM_START, text, strlen(text));
+}
+
+static void sum_mesh(cdem_run_setup *setup) {
   const cdem_mesh *mesh = &setup->mesh;
-  setup->case_sum = checksum(start, setup->cases.source, strlen(setup->cases.source));
-  uint64_t sum = checksum(start, mesh->xyz, (size_t)mesh->nodes * 3 * sizeof *mesh->xyz);
+  uint64_t sum = checksum(SUM_START, mesh->xyz, (size_t)mesh->nodes * 3 * sizeof *mesh->xyz);
   sum = checksum(sum, mesh->cell_shape, (size_t)mesh->cells);
   setup->mesh_sum = checksum(sum, mesh->cell_node,
                              (size_t)mesh->cell_start[mesh->cells] * sizeof *mesh->cell_node);
@@ -161,10 +165,19 @@ static void sum_inputs(cdem_run_setup *setup) {
 static cdem_status read_case(const cdem_run_options *options, cdem_run_setup *setup,
                              cdem_fault *fault) {
   char path[4096];
-  snprintf(path, sizeof path, "%s/case.yaml", options->folder != NULL ? options->folder : ".");
-  return options->resume ? cdem_read_case(path, 0, NULL, &setup->cases, fault)
-                         : cdem_read_case(options->path, options->overrides, options->override,
-                                          &setup->cases, fault);
+  cdem_case *cases = &setup->cases;
+  if (options->resume) {
+    snprintf(path, sizeof path, "%s/case.yaml", options->folder);
+    CDEM_TRY(cdem_read_case(path, 0, NULL, cases, fault));
+  } else {
+    CDEM_TRY(cdem_read_case(options->path, options->overrides, options->override, cases, fault));
+  }
+  /* The sum of what a person wrote must not depend on the folder in which it was run. */
+  setup->case_sum = sum_text(cases->source);
+  if (!options->resume)
+    CDEM_TRY(cdem_case_settle_mesh(cases, options->overrides, options->override, fault));
+  setup->kept_sum = sum_text(cases->source);
+  return CDEM_OK;
 }
 
 static cdem_status read_mesh(cdem_run_setup *setup, cdem_fault *fault) {
@@ -185,7 +198,7 @@ static cdem_status build(const cdem_run_options *options, const cdem_state *chec
     CDEM_TRY(cdem_mesh_from_state(checkpoint, "mesh", &setup->mesh, fault));
   else
     CDEM_TRY(read_mesh(setup, fault));
-  sum_inputs(setup);
+  sum_mesh(setup);
   CDEM_TRY(cdem_run_setup_body(setup, fault));
   CDEM_TRY(cdem_run_setup_interfaces(setup, fault));
   CDEM_TRY(cdem_run_setup_contact(setup, fault));

@@ -33,6 +33,7 @@ typedef struct {
   const cdem_run_options *options;
   cdem_case cases;
   uint64_t case_sum, mesh_sum; /* FNV-1a of the case's text and of the mesh's arrays */
+  uint64_t kept_sum;           /* of the text in the folder, which names the mesh from the root on */
   cdem_mesh mesh;              /* as read */
   cdem_blocks blocks;          /* cut */
   cdem_model model;            /* of blocks.mesh */

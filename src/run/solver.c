@@ -39,7 +39,19 @@ static void fill_options(cdem_run_setup *setup) {
 }
 
 static cdem_status check_step(const cdem_run_setup *setup, double limit, cdem_fault *fault) {
-  double step = cdem_run_values(setup)->step;
+  enum { MOST_DIGITS = 15 }; /* steps are counted in 64 bits, and nobody waits for them */
+  double step = cdem_run_values(setup)->step, end = cdem_run_values(setup)->end;
+  if (!(limit > 0.0) || !isfinite(limit))
+    return cdem_case_fail(&setup->cases, "materials", CDEM_INPUT, fault,
+                          "there is no stable time step (the limit comes out as %g s): a modulus, "
+                          "a density or a length is far out of range; look at their units",
+                          limit);
+  double steps = end / (isnan(step) ? limit : step);
+  if (steps > pow(10.0, MOST_DIGITS)) /* false without an end */
+    return cdem_case_fail(&setup->cases, "end", CDEM_INPUT, fault,
+                          "%.3g s take %.3g steps of at most %.3g s (set by %s); look at the unit "
+                          "of 'end', and at the moduli, densities and sizes",
+                          end, steps, isnan(step) ? limit : step, setup->limiter);
   if (isnan(step) || step <= limit)
     return CDEM_OK;
   return cdem_case_fail(&setup->cases, "step", CDEM_INPUT, fault,
