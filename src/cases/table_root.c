@@ -8,7 +8,7 @@ static const char *const planes[] = {"strain", "stress", NULL};
 
 static const cdem_case_key keys[] = {
     {TOP(title), .kind = CDEM_KEY_TEXT, .otherwise = "no title",
-     .help = "A line that names the run in figures and summaries.",
+     .help = "A line that names the run in summary.json and in what is printed at its end.",
      .example = "Uniaxial compression of a rock specimen"},
     {TOP(analysis), .kind = CDEM_KEY_CHOICE, .choice = analyses,
      .help = "dynamic: explicit in time; relaxation: damped explicit steps until forces balance; "

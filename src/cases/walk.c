@@ -39,6 +39,12 @@ static bool met_before(int model, const char *key) {
   return false;
 }
 
+static const char *example_of(cdem_dimension dimension) {
+  if (dimension.mass == 0)
+    return dimension.length == 0 ? "0.25" : "2 mm";
+  return dimension.length == 1 ? "40 kN" : "30 GPa";
+}
+
 /* The keys that CDEM_KEY_MATERIAL stands for, from the table of models. */
 static void walk_material(const walker *walk, const char *prefix) {
   static const cdem_case_key around[] = {
@@ -77,7 +83,7 @@ static void walk_material(const walker *walk, const char *prefix) {
                            .tag = plain ? CDEM_TAG_NONE : CDEM_TAG_GRAIN,
                            .otherwise = from->optional ? NULL : "required by its models",
                            .help = from->help,
-                           .example = plain ? "0.25" : "30 GPa"};
+                           .example = example_of(from->dimension)};
       if (!met_before(m, from->key))
         visit_at(walk, prefix, &key);
     }

@@ -87,6 +87,9 @@ typedef struct {
 } cdem_body_fields;
 void cdem_body_cell_fields(const cdem_body *body, const double *u, const cdem_body_fields *fields);
 
+/* The same stress alone, [cells][6], by the kernels of the forces: what is wanted in every step. */
+void cdem_body_cell_stress(const cdem_body *body, const double *u, double *stress);
+
 /* Stress at nodes [nodes][6]: each element's stress at its own corners, averaged by volume share
  * over the elements around. Sharper than cell values at a free surface. */
 void cdem_body_node_stress(const cdem_body *body, const double *u, double *stress);

@@ -1,4 +1,4 @@
-/* Forces, energies and the sign of det F over all batches: tile by tile, in parallel. */
+/* Forces, energies, stresses and the sign of det F over all batches: tile by tile, in parallel. */
 #include "base/simd.h"
 #include "cdem/body_store.h"
 
@@ -159,4 +159,36 @@ double cdem_body_energy(const cdem_body *body, const double *u, double by_class[
   if (by_class != NULL)
     memcpy(by_class, total, sizeof total);
   return total[0] + total[1] + total[2];
+}
+
+/* A batch of elements of their own may hold several materials: one pass for each. */
+static void batch_stress(const cdem_body *body, const cdem_body_kernels *kernels, const double *u,
+                         int64_t n, double *stress) {
+  const cdem_body_store *store = body->store;
+  const int32_t *cell = store->cell + n * CDEM_LANES;
+  cdem_body_task task = task_of(body, u, n);
+  int cells = store->batch[n].cells;
+  unsigned left = (1U << cells) - 1U;
+  for (int first = 0; first < cells; first++) {
+    double out[6 * CDEM_LANES];
+    int material = body->model->material[cell[first]];
+    if (!(left >> first & 1U))
+      continue;
+    kernels->stresses(&task, (const double(*)[7])store->law[material].stress, out);
+    for (int lane = first; lane < cells; lane++) {
+      if (body->model->material[cell[lane]] != material)
+        continue;
+      left &= ~(1U << lane);
+      for (int v = 0; v < 6; v++)
+        stress[6 * (int64_t)cell[lane] + v] = out[CDEM_LANES * v + lane];
+    }
+  }
+}
+
+void cdem_body_cell_stress(const cdem_body *body, const double *u, double *stress) {
+  const cdem_body_store *store = body->store;
+  const cdem_body_kernels *kernels = cdem_body_kernels_widest();
+#pragma omp parallel for schedule(static) num_threads(body->threads) if (store->tiles > 1)
+  for (int64_t n = 0; n < store->batches; n++)
+    batch_stress(body, kernels, u, n, stress);
 }

@@ -4,43 +4,46 @@
  *   TARGET        the attribute that lets the compiler use vectors so wide (or nothing)
  * Small 3x3 work stands here; the formulations in body_kernels_solid.h and body_kernels_plane.h.
  */
-#define lanes        KERNEL(lanes)
-#define lanes_at     KERNEL(lanes_at)
-#define lane_mask    KERNEL(lane_mask)
-#define select_lanes KERNEL(select_lanes)
-#define root         KERNEL(root)
-#define reaches      KERNEL(reaches)
-#define symmetric    KERNEL(symmetric)
-#define gather       KERNEL(gather)
-#define relative     KERNEL(relative)
-#define turned_from  KERNEL(turned_from)
-#define turn_matrix  KERNEL(turn_matrix)
-#define compose      KERNEL(compose)
-#define largest_root KERNEL(largest_root)
-#define best_turn    KERNEL(best_turn)
-#define best_column  KERNEL(best_column)
-#define polar        KERNEL(polar)
-#define gradient3    KERNEL(gradient3)
-#define determinant3 KERNEL(determinant3)
-#define local3       KERNEL(local3)
-#define springs3     KERNEL(springs3)
-#define finish3      KERNEL(finish3)
-#define frame3       KERNEL(frame3)
-#define frame2       KERNEL(frame2)
-#define solid_forces KERNEL(solid_forces)
-#define solid_energy KERNEL(solid_energy)
-#define polar2       KERNEL(polar2)
-#define gradient2    KERNEL(gradient2)
-#define local2       KERNEL(local2)
-#define branch       KERNEL(branch)
-#define springs2     KERNEL(springs2)
-#define springs_c    KERNEL(springs_c)
-#define finish2      KERNEL(finish2)
-#define plane_forces KERNEL(plane_forces)
-#define plane_energy KERNEL(plane_energy)
-#define elongations  KERNEL(elongations)
-#define square       KERNEL(square)
-#define INLINE       CDEM_ALWAYS_INLINE TARGET
+#define lanes         KERNEL(lanes)
+#define lanes_at      KERNEL(lanes_at)
+#define lane_mask     KERNEL(lane_mask)
+#define select_lanes  KERNEL(select_lanes)
+#define root          KERNEL(root)
+#define reaches       KERNEL(reaches)
+#define symmetric     KERNEL(symmetric)
+#define gather        KERNEL(gather)
+#define relative      KERNEL(relative)
+#define turned_from   KERNEL(turned_from)
+#define turn_matrix   KERNEL(turn_matrix)
+#define compose       KERNEL(compose)
+#define largest_root  KERNEL(largest_root)
+#define best_turn     KERNEL(best_turn)
+#define best_column   KERNEL(best_column)
+#define polar         KERNEL(polar)
+#define gradient3     KERNEL(gradient3)
+#define determinant3  KERNEL(determinant3)
+#define local3        KERNEL(local3)
+#define springs3      KERNEL(springs3)
+#define finish3       KERNEL(finish3)
+#define frame3        KERNEL(frame3)
+#define frame2        KERNEL(frame2)
+#define solid_forces  KERNEL(solid_forces)
+#define solid_energy  KERNEL(solid_energy)
+#define polar2        KERNEL(polar2)
+#define gradient2     KERNEL(gradient2)
+#define local2        KERNEL(local2)
+#define branch        KERNEL(branch)
+#define springs2      KERNEL(springs2)
+#define springs_c     KERNEL(springs_c)
+#define finish2       KERNEL(finish2)
+#define plane_forces  KERNEL(plane_forces)
+#define plane_energy  KERNEL(plane_energy)
+#define turned_stress KERNEL(turned_stress)
+#define solid_stress  KERNEL(solid_stress)
+#define plane_stress  KERNEL(plane_stress)
+#define elongations   KERNEL(elongations)
+#define square        KERNEL(square)
+#define INLINE        CDEM_ALWAYS_INLINE TARGET
 
 enum { KERNEL(PARTS) = CDEM_LANES / WIDTH };
 #define PARTS KERNEL(PARTS)
@@ -127,6 +130,7 @@ INLINE void relative(int nodes, int dofs, int moving, const cdem_body_task *task
 #include "cdem/body_kernels_solid.h"
 /* The plane forms stand after the solid ones. */
 #include "cdem/body_kernels_plane.h"
+#include "cdem/body_kernels_stress.h"
 
 #define EACH_PART for (int part = 0; part < PARTS; part++)
 
@@ -166,6 +170,37 @@ TARGET static void KERNEL(energies)(const cdem_body_task *task, double *energy) 
     plane_energy(task->kind->nodes, true, shared, task, part, energy);
     break;
   }
+}
+
+/* stress [6][CDEM_LANES]. */
+TARGET static void KERNEL(stresses)(const cdem_body_task *task, const double (*law)[7],
+                                    double *stress) {
+  const int key = 16 * (int)task->kind->formulation + task->kind->nodes;
+  lanes s[6] = {0};
+#define CASE(formulation, nodes, call)                                                             \
+  case 16 * (formulation) + (nodes):                                                               \
+    call;                                                                                          \
+    break
+#define SOLID(nodes) CASE(CDEM_SOLID, nodes, solid_stress(nodes, task->shared, task, part, law, s))
+#define PLANE(formulation, nodes, cosserat)                                                        \
+  CASE(formulation, nodes, plane_stress(nodes, cosserat, task->shared, task, part, law, s))
+  EACH_PART {
+    switch (key) {
+      SOLID(4);
+      SOLID(5);
+      SOLID(6);
+      SOLID(8);
+      PLANE(CDEM_PLANE, 3, false);
+      PLANE(CDEM_PLANE, 4, false);
+      PLANE(CDEM_PLANE_COSSERAT, 3, true);
+      PLANE(CDEM_PLANE_COSSERAT, 4, true);
+    }
+    for (int v = 0; v < 6; v++)
+      *(lanes_at *)(stress + CDEM_LANES * v + part * WIDTH) = s[v];
+  }
+#undef PLANE
+#undef SOLID
+#undef CASE
 }
 
 TARGET static void KERNEL(determinants)(const cdem_body_task *task, double *determinant) {
@@ -278,6 +313,9 @@ TARGET static void KERNEL(bounds)(int size, double *a, double *work, double *bou
 #undef finish2
 #undef plane_forces
 #undef plane_energy
+#undef turned_stress
+#undef solid_stress
+#undef plane_stress
 #undef elongations
 #undef square
 #undef INLINE

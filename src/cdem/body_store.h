@@ -148,11 +148,12 @@ typedef struct {
   bool shared, last_node, linear;
 } cdem_body_task;
 
-/* force [nodes][dofs][CDEM_LANES]; energy [CDEM_CLASSES][CDEM_LANES]; determinant of F
- * [CDEM_LANES]. */
+/* force [nodes][dofs][CDEM_LANES]; energy [CDEM_CLASSES][CDEM_LANES]; stress [6][CDEM_LANES] by one
+ * law (cdem_body_law) for all lanes; determinant of F [CDEM_LANES]. */
 typedef struct {
   void (*forces)(const cdem_body_task *task, double *force, double *determinant);
   void (*energies)(const cdem_body_task *task, double *energy);
+  void (*stresses)(const cdem_body_task *task, const double (*law)[7], double *stress);
   void (*determinants)(const cdem_body_task *task, double *determinant);
   /* a [size][size][CDEM_LANES] symmetric; bound [CDEM_LANES] of its largest eigenvalue; work as
    * long as a. */

@@ -57,6 +57,20 @@ static cdem_status copy_laws(const cdem_contact_options *o, cdem_contact_store *
   return CDEM_OK;
 }
 
+/* From corner k to the farthest place of its patch: middle of the facet, or of a side. */
+static double patch_reach(const cdem_facet *facet, const double *xyz, int k) {
+  double reach = 0.0, middle[3] = {0.0};
+  const double *at = xyz + 3 * (int64_t)facet->node[k];
+  for (int j = 0; j < facet->corners; j++) {
+    const double *x = xyz + 3 * (int64_t)facet->node[j];
+    double side[3] = {x[0] - at[0], x[1] - at[1], x[2] - at[2]};
+    for (int i = 0; i < 3; i++)
+      middle[i] += side[i] / facet->corners;
+    reach = fmax(reach, 0.5 * cdem_norm3(side));
+  }
+  return fmax(reach, cdem_norm3(middle));
+}
+
 /* Shares, size, and how deep a point may be: half of the size or of the cell's height behind the
  * facet, whichever is less, so that nothing is pushed out through the back of a thin body. */
 static void measure_facet(cdem_contact *contact, int32_t f) {
@@ -76,8 +90,10 @@ static void measure_facet(cdem_contact *contact, int32_t f) {
   }
   s->size[f] = s->dim == 2 ? measure : sqrt(measure * (facet->corners == 3 ? 2.0 : 1.0));
   s->depth[f] = 0.5 * fmin(s->size[f], height);
-  for (int k = 0; k < facet->corners; k++)
+  for (int k = 0; k < facet->corners; k++) {
     s->node_area[facet->node[k]] += s->share[f][k];
+    s->patch[f] = fmax(s->patch[f], patch_reach(facet, mesh->xyz, k));
+  }
 }
 
 static cdem_status make_arrays(const cdem_blocks *blocks, cdem_contact_store *s,
@@ -86,6 +102,7 @@ static cdem_status make_arrays(const cdem_blocks *blocks, cdem_contact_store *s,
   CDEM_NEW(s->share, facets, fault);
   CDEM_NEW(s->size, facets, fault);
   CDEM_NEW(s->depth, facets, fault);
+  CDEM_NEW(s->patch, facets, fault);
   CDEM_NEW(s->node_area, nodes, fault);
   CDEM_NEW(s->active, facets, fault);
   CDEM_NEW(s->handed_pair, pairs, fault);
@@ -98,6 +115,7 @@ static cdem_status make_arrays(const cdem_blocks *blocks, cdem_contact_store *s,
   CDEM_NEW(s->point_start, facets, fault);
   CDEM_NEW(s->point, 4 * facets, fault);
   CDEM_NEW(s->live_point, 4 * facets, fault);
+  CDEM_NEW(s->busy, 4 * facets, fault);
   CDEM_NEW(s->surface_node, nodes, fault);
   CDEM_NEW(s->x, 3 * nodes, fault);
   CDEM_NEW(s->built, 3 * nodes, fault);
@@ -158,8 +176,9 @@ void cdem_contact_release(cdem_contact *contact) {
                    s->x,           s->built,        s->reach,          s->row,
                    s->face,        s->marked_facet, s->mark,           s->candidate_start,
                    s->candidate,   s->slot_start,   s->slot_component, s->trial,
-                   s->deep,        s->score,        s->touch,          s->edge_pair,
-                   s->edge_touch,  s->carry,        s->edge_key,       s->edge_carry};
+                   s->deep,        s->score,        s->slot_touch,     s->edge_pair,
+                   s->edge_touch,  s->edge_busy,    s->pool,           s->carry,
+                   s->edge_key,    s->edge_carry,   s->patch,          s->busy};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
       free(all[i]);
     free(s);
@@ -192,7 +211,7 @@ void cdem_contact_hand_over(cdem_contact *contact, int32_t pair, const double fo
 
 /* ---- one evaluation ---- */
 
-enum { MOVED = 1, INVALID = 2 };
+enum { MOVED = 1, INVALID = 2, ROOM_OF_POINT = 4 };
 
 /* Present positions of the surface; whether something has left half of its skin. */
 static int update_positions(cdem_contact *contact, const double *u) {
@@ -241,30 +260,52 @@ static cdem_status too_deep(const cdem_contact *contact, int32_t slave, int32_t 
                    s->depth[master], at[0], at[1], at[2]);
 }
 
+/* All points, or those that found the pool full before. *failed: the first slot that is too deep.
+ */
+static int64_t step_points(cdem_contact *contact, bool again, int64_t *failed) {
+  cdem_contact_store *s = contact->store;
+  int64_t full = 0, first = *failed;
+#pragma omp parallel for schedule(dynamic, 64) num_threads(s->threads) reduction(+ : full)         \
+    reduction(min : first)
+  for (int32_t i = 0; i < s->live; i++) {
+    if (again && s->busy[i] != CDEM_DEFERRED)
+      continue;
+    int64_t deep = cdem_contact_point_step(contact, i);
+    full += s->busy[i] == CDEM_DEFERRED;
+    first = deep >= 0 && deep < first ? deep : first;
+  }
+  *failed = first;
+  return full;
+}
+
+static int32_t slave_of_slot(const cdem_contact_store *s, int64_t slot) {
+  int32_t p = 0;
+  while (s->slot_start[p + 1] <= slot)
+    p++;
+  return s->point[p].facet;
+}
+
 static cdem_status find_contacts(cdem_contact *contact, cdem_fault *fault) {
   cdem_contact_store *s = contact->store;
+  int64_t deferred = 0;
 #pragma omp parallel for schedule(static) num_threads(s->threads)
   for (int32_t f = 0; f < s->marked; f++)
     cdem_contact_face_now(contact, s->marked_facet[f], &s->face[s->marked_facet[f]]);
-  int32_t failed = s->live;
-  int64_t slot = -1;
-#pragma omp parallel for schedule(dynamic, 64) num_threads(s->threads)
-  for (int32_t i = 0; i < s->live; i++) {
-    int64_t deep = cdem_contact_point_step(contact, s->live_point[i]);
-    if (deep >= 0) {
-#pragma omp critical(cdem_contact_points)
-      if (i < failed) {
-        failed = i;
-        slot = deep;
-      }
-    }
+  int64_t slots = s->slot_start[s->points], failed = slots;
+  for (bool again = false; !again || deferred > 0; again = true) {
+    CDEM_TRY(cdem_contact_make_room(s, ROOM_OF_POINT * deferred, fault));
+    deferred = step_points(contact, again, &failed);
   }
-  if (slot >= 0)
-    return too_deep(contact, s->point[s->live_point[failed]].facet, s->deep[slot], fault);
-  int64_t pair = cdem_contact_edges_step(contact);
-  if (pair >= 0)
-    return too_deep(contact, s->edge[s->edge_pair[pair].edge[1]].facet[0],
-                    s->edge[s->edge_pair[pair].edge[0]].facet[0], fault);
+  if (failed < slots)
+    return too_deep(contact, slave_of_slot(s, failed), s->deep[failed], fault);
+  failed = s->edge_pairs;
+  for (bool again = false; !again || deferred > 0; again = true) {
+    CDEM_TRY(cdem_contact_make_room(s, deferred, fault));
+    deferred = cdem_contact_edges_step(contact, again, &failed);
+  }
+  if (failed < s->edge_pairs)
+    return too_deep(contact, s->edge[s->edge_pair[failed].edge[1]].facet[0],
+                    s->edge[s->edge_pair[failed].edge[0]].facet[0], fault);
   return CDEM_OK;
 }
 
@@ -304,11 +345,15 @@ cdem_status cdem_contact_forces(cdem_contact *contact, const double *u, const do
   CDEM_TRY(prepare(contact, u, fault));
   CDEM_TRY(find_contacts(contact, fault));
   s->contacts = 0;
-  for (int32_t i = 0; i < s->live; i++)
-    for (int64_t t = s->slot_start[s->live_point[i]]; t < s->slot_start[s->live_point[i] + 1]; t++)
-      add_touch(s, &s->touch[t], force);
+  for (int32_t i = 0; i < s->live; i++) {
+    int32_t p = s->live_point[i];
+    for (int64_t t = s->slot_start[p]; t < s->slot_start[p + 1] && s->busy[i]; t++)
+      if (s->slot_touch[t] >= 0)
+        add_touch(s, &s->pool[s->slot_touch[t]], force);
+  }
   for (int64_t i = 0; i < s->edge_pairs; i++)
-    add_touch(s, &s->edge_touch[i], force);
+    if (s->edge_busy[i])
+      add_touch(s, &s->pool[s->edge_touch[i]], force);
   for (int32_t f = 0; f < s->facets; f++)
     s->active[s->facet[f]] = CDEM_ACTIVE;
   s->v = NULL;
@@ -326,8 +371,12 @@ void cdem_contact_sum(const cdem_contact *contact, cdem_contact_totals *totals) 
   if (s->slot_start == NULL)
     return;
   totals->candidates = s->candidate_start[s->surface_nodes] + s->edge_pairs;
-  for (int64_t i = 0; i < s->slot_start[s->points]; i++)
-    totals->stored += s->touch[i].facet >= 0 ? s->touch[i].stored : 0.0;
-  for (int64_t i = 0; i < s->edge_pairs; i++)
-    totals->stored += s->edge_touch[i].facet >= 0 ? s->edge_touch[i].stored : 0.0;
+  for (int64_t i = 0; i < s->slot_start[s->points]; i++) {
+    const cdem_touch *t = cdem_touch_of(s, s->slot_touch[i]);
+    totals->stored += t != NULL ? t->stored : 0.0;
+  }
+  for (int64_t i = 0; i < s->edge_pairs; i++) {
+    const cdem_touch *t = cdem_touch_of(s, s->edge_touch[i]);
+    totals->stored += t != NULL ? t->stored : 0.0;
+  }
 }

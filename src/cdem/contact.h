@@ -11,7 +11,9 @@
  * g overlap along the master's outward normal, w the part of the point's area that faces the master
  * and lies over it (m^2; docs/rooms/cdem-contact.md), s the elastic part of the sliding in the
  * frame that turns with the master face. The reaction goes to the master's nodes by its shape
- * functions at the point's projection: forces sum to zero and so do their moments.
+ * functions at the point's projection: forces sum to zero and so do their moments. The force is
+ * never larger than the energy that the contact was given can drive (contact_law.c): contact is
+ * passive whatever appears, turns or changes.
  *
  * History is kept by (slave point, opposing surface) and follows when the slave moves from one
  * master face to its neighbour. Broad phase: a uniform grid over facets with a skin; rebuilt when
@@ -62,17 +64,19 @@ void cdem_contact_release(cdem_contact *contact);
 /* Activates a facet as slave and master (idempotent). */
 void cdem_contact_activate(cdem_contact *contact, int32_t facet);
 /* Makes both facets of a pair active and starts the history of their points from the force on side
- * 1 (N, by corner); NULL: from nothing. */
+ * 1 (N, by corner); NULL: from nothing. To be called after the forces of the step in which the pair
+ * was released: the next evaluation has it. */
 void cdem_contact_hand_over(cdem_contact *contact, int32_t pair, const double force[4][3]);
 
 /* Adds contact forces at displacements u and velocities v [nodes][dofs] (v of the last half step)
- * to force; dt: the step over which v led to u. CDEM_NUMERIC: something is deeper inside than a
- * facet's size (names the elements, the time step is too long or the speed too large). */
+ * to force; dt: the step over which v led to u (0: u was set, contacts take the energy of their
+ * overlap). CDEM_NUMERIC: something is deeper inside than a facet's size (names the elements, the
+ * time step is too long or the speed too large). */
 cdem_status cdem_contact_forces(cdem_contact *contact, const double *u, const double *v, double dt,
                                 double *force, cdem_fault *fault);
 
 typedef struct {
-  double stored, friction, damping; /* J; the last two since the start */
+  double stored, friction, damping; /* J; the last two since the start, never falling */
   int64_t contacts, candidates, rebuilds;
   int64_t visits; /* grid cells and nodes that the last rebuild looked at: its cost */
 } cdem_contact_totals;

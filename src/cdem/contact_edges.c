@@ -170,8 +170,10 @@ cdem_status cdem_contact_edge_candidates(cdem_contact *contact, cdem_fault *faul
   edge_grid g = {0};
   free(s->edge_pair);
   free(s->edge_touch);
+  free(s->edge_busy);
   s->edge_pair = NULL;
   s->edge_touch = NULL;
+  s->edge_busy = NULL;
   s->edge_pairs = 0;
   cdem_status status = s->edges > 0 ? fill(contact, &g, fault) : CDEM_OK;
   free(g.box);
@@ -188,9 +190,10 @@ cdem_status cdem_contact_edge_candidates(cdem_contact *contact, cdem_fault *faul
   CDEM_TRY(status);
   s->edge_pairs = 0;
   CDEM_NEW(s->edge_touch, pairs, fault);
+  CDEM_NEW(s->edge_busy, pairs, fault);
   s->edge_pairs = pairs;
   for (int64_t i = 0; i < pairs; i++)
-    s->edge_touch[i].facet = -1;
+    s->edge_touch[i] = -1;
   return CDEM_OK;
 }
 
@@ -220,11 +223,12 @@ static double carried_by_points(const cdem_contact *contact, const cdem_contact_
     int32_t first = s->point_start[e->facet[k]];
     for (int32_t p = first; p < first + contact->blocks->facet[e->facet[k]].corners; p++) {
       for (int64_t i = s->slot_start[p]; i < s->slot_start[p + 1]; i++) {
-        const cdem_touch *touch = &s->touch[i];
+        const cdem_touch *touch = cdem_touch_of(s, s->slot_touch[i]);
+        if (touch == NULL || s->slot_component[i] != component)
+          continue;
         double r[3] = {touch->position[0] - at[0], touch->position[1] - at[1],
                        touch->position[2] - at[2]};
-        if (s->slot_component[i] == component && touch->facet >= 0 &&
-            cdem_norm3(r) <= 2.0 * e->size)
+        if (cdem_norm3(r) <= 2.0 * e->size)
           sum += touch->weight;
       }
     }
@@ -239,6 +243,7 @@ typedef struct {
   double t[2], normal[3], gap;
 } crossing;
 
+/* False: apart, or not a crossing of sharp edges. */
 static bool find_crossing(const cdem_contact *contact, const cdem_edge_pair *pair, crossing *c) {
   const cdem_contact_store *s = contact->store;
   c->one = &s->edge[pair->edge[0]];
@@ -271,6 +276,8 @@ static bool find_crossing(const cdem_contact *contact, const cdem_edge_pair *pai
     c->q[i] = x[2][i] + c->t[1] * c->b[i];
     c->gap += (c->p[i] - c->q[i]) * c->normal[i];
   }
+  if (c->gap <= 0.0)
+    return false;
   double back[3] = {-c->normal[0], -c->normal[1], -c->normal[2]};
   return within_cone(contact, c->one, c->normal) && within_cone(contact, c->two, back);
 }
@@ -324,51 +331,76 @@ static bool edge_is_fresh(const cdem_contact_store *s, const cdem_contact_edge *
   return s->active[e->facet[0]] == CDEM_FRESH || s->active[e->facet[1]] == CDEM_FRESH;
 }
 
+static bool may_begin(const cdem_contact_store *s, const crossing *c, double before) {
+  double shallow = 0.1 * fmin(c->one->size, c->two->size);
+  return c->gap <= shallow || before <= shallow || edge_is_fresh(s, c->one) ||
+         edge_is_fresh(s, c->two);
+}
+
+static void end_edge(cdem_contact *contact, int64_t i) {
+  cdem_touch *t = cdem_touch_of(contact->store, contact->store->edge_touch[i]);
+  if (t != NULL)
+    cdem_touch_end(contact, t);
+}
+
+static void press_edge(cdem_contact *contact, int64_t i, const crossing *c,
+                       const cdem_contact_input *in) {
+  cdem_contact_store *s = contact->store;
+  if (s->edge_touch[i] < 0)
+    s->edge_touch[i] = cdem_contact_take(s);
+  s->edge_busy[i] = s->edge_touch[i] < 0 ? CDEM_DEFERRED : CDEM_BUSY;
+  if (s->edge_touch[i] < 0)
+    return;
+  cdem_touch *t = &s->pool[s->edge_touch[i]];
+  cdem_touch_update(contact, in, c->one->facet[0], t);
+  t->shape[0] = c->t[0];
+  t->shape[1] = c->t[1];
+  for (int k = 0; k < 3; k++)
+    t->position[k] = c->p[k];
+}
+
 /* False: deeper than the facets allow, and no points carry. */
 static bool edge_step(cdem_contact *contact, int64_t i) {
   cdem_contact_store *s = contact->store;
-  cdem_touch *t = &s->edge_touch[i];
+  const cdem_touch *t = cdem_touch_of(s, s->edge_touch[i]), none = {.facet = -1};
   crossing c;
-  t->friction = t->damping = 0.0;
-  bool crossed = find_crossing(contact, &s->edge_pair[i], &c);
-  if (!crossed || c.gap <= 0.0) {
-    if (t->facet >= 0)
-      cdem_touch_end(contact, t);
+  s->edge_busy[i] = t != NULL ? CDEM_BUSY : 0;
+  if (!find_crossing(contact, &s->edge_pair[i], &c)) {
+    end_edge(contact, i);
     return true;
   }
-  double shallow = 0.1 * fmin(c.one->size, c.two->size);
   cdem_contact_input in = {
       .law = cdem_contact_law_between(s, contact->blocks, c.two->facet[0], c.one->facet[0]),
-      .gap = c.gap,
-      .weight = edge_weight(contact, &c)};
-  fill_input(contact, &c, t, &in);
-  bool begins = c.gap <= shallow || c.gap - in.rate * s->dt <= shallow || edge_is_fresh(s, c.one) ||
-                edge_is_fresh(s, c.two);
+      .gap = c.gap};
+  fill_input(contact, &c, t != NULL ? t : &none, &in);
+  double before = c.gap - in.rate * s->dt;
   bool deep = c.gap > fmin(c.one->depth, c.two->depth);
-  if (deep && in.weight > 0.0 && (t->facet >= 0 || c.gap - in.rate * s->dt <= 0.0))
-    return false;
-  if (!(in.weight > 0.0) || (t->facet < 0 && !begins) || deep) {
-    if (t->facet >= 0)
-      cdem_touch_end(contact, t);
+  if (t == NULL && !deep && !may_begin(s, &c, before))
     return true;
-  }
-  cdem_touch_update(contact, &in, c.one->facet[0], t);
-  t->shape[0] = c.t[0];
-  t->shape[1] = c.t[1];
-  for (int k = 0; k < 3; k++)
-    t->position[k] = c.p[k];
+  in.whole = in.weight = edge_weight(contact, &c);
+  if (deep && in.weight > 0.0 && (t != NULL || before <= 0.0))
+    return false;
+  if (deep || !(in.weight > 0.0))
+    end_edge(contact, i);
+  else
+    press_edge(contact, i, &c, &in);
   return true;
 }
 
-/* The first pair that is too deep, or -1. */
-int64_t cdem_contact_edges_step(cdem_contact *contact) {
+/* All pairs, or those that found the pool full before: how many did now. *failed: the first that is
+ * too deep. */
+int64_t cdem_contact_edges_step(cdem_contact *contact, bool again, int64_t *failed) {
   cdem_contact_store *s = contact->store;
-  int64_t failed = s->edge_pairs;
-#pragma omp parallel for schedule(dynamic, 64) num_threads(s->threads)
-  for (int64_t i = 0; i < s->edge_pairs; i++)
-    if (!edge_step(contact, i)) {
-#pragma omp critical(cdem_contact_edges)
-      failed = i < failed ? i : failed;
-    }
-  return failed < s->edge_pairs ? failed : -1;
+  int64_t first = *failed, full = 0;
+#pragma omp parallel for schedule(dynamic, 256) num_threads(s->threads) reduction(+ : full)        \
+    reduction(min : first)
+  for (int64_t i = 0; i < s->edge_pairs; i++) {
+    if (again && s->edge_busy[i] != CDEM_DEFERRED)
+      continue;
+    bool good = edge_step(contact, i);
+    full += s->edge_busy[i] == CDEM_DEFERRED;
+    first = !good && i < first ? i : first;
+  }
+  *failed = first;
+  return full;
 }

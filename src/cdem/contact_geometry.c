@@ -53,11 +53,14 @@ void cdem_contact_face_now(const cdem_contact *contact, int32_t facet, cdem_cont
     for (int k = 0; k < corners; k++)
       face->centre[i] += c[k][i] / corners;
   }
-  face->warp = 0.0;
-  for (int k = 0; k < corners && corners == 4; k++) {
+  face->warp = face->radius = 0.0;
+  for (int k = 0; k < corners; k++) {
     double r[3] = {c[k][0] - face->centre[0], c[k][1] - face->centre[1], c[k][2] - face->centre[2]};
-    face->warp = fmax(face->warp, fabs(cdem_dot3(r, face->normal)));
+    if (corners == 4)
+      face->warp = fmax(face->warp, fabs(cdem_dot3(r, face->normal)));
+    face->radius = fmax(face->radius, cdem_dot3(r, r));
   }
+  face->radius = sqrt(face->radius);
 }
 
 /* Rows: two tangents and the normal of the facet as it lies now; they turn with it. */
@@ -128,6 +131,8 @@ static void triangle(const double a[3], const double b[3], const double c[3], co
     p->foot[i] = at[i] + p->gap * p->normal[i];
   /* The nearest point lies on a side that the foot is beyond. */
   p->beyond = p->lambda[0] < 0.0 || p->lambda[1] < 0.0 || p->lambda[2] < 0.0 ? INFINITY : 0.0;
+  if (p->beyond == 0.0)
+    return;
   if (p->lambda[0] < 0.0)
     p->beyond = fmin(p->beyond, to_segment(b, c, p->foot));
   if (p->lambda[1] < 0.0)
@@ -139,6 +144,32 @@ static void triangle(const double a[3], const double b[3], const double c[3], co
 static void centre_of(const double corner[4][3], double centre[3]) {
   for (int i = 0; i < 3; i++)
     centre[i] = 0.25 * ((corner[0][i] + corner[1][i]) + (corner[2][i] + corner[3][i]));
+}
+
+static bool is_flat(const cdem_contact_store *s, int32_t facet) {
+  return s->face[facet].warp < 1e-9 * s->size[facet];
+}
+
+/* Which triangle of a flat quadrilateral the foot is in, seen from the centre. */
+static int sector(const double c[4][3], const double centre[3], const double at[3]) {
+  double a[3], b[3], normal[3], r[3], turn[4];
+  for (int i = 0; i < 3; i++) {
+    a[i] = c[2][i] - c[0][i];
+    b[i] = c[3][i] - c[1][i];
+    r[i] = at[i] - centre[i];
+  }
+  cdem_cross3(a, b, normal);
+  cdem_cross3(normal, a, a);
+  cdem_cross3(normal, b, b);
+  turn[2] = cdem_dot3(a, r);
+  turn[3] = cdem_dot3(b, r);
+  turn[0] = -turn[2];
+  turn[1] = -turn[3];
+  /* with diagonals that meet in the centre; otherwise the triangle tells, and all are tried */
+  for (int k = 0; k < 3; k++)
+    if (turn[k] >= 0.0 && turn[k + 1] <= 0.0)
+      return k;
+  return 3;
 }
 
 void cdem_contact_project(const cdem_contact *contact, int32_t facet, const double corner[4][3],
@@ -154,8 +185,14 @@ void cdem_contact_project(const cdem_contact *contact, int32_t facet, const doub
     return;
   }
   double centre[3], best = INFINITY;
-  bool flat = contact->store->face[facet].warp < 1e-9 * contact->store->size[facet];
+  bool flat = is_flat(contact->store, facet);
   centre_of(corner, centre);
+  if (flat) { /* most often inside: then one triangle is enough */
+    p->part = sector(corner, centre, at);
+    triangle(corner[p->part], corner[(p->part + 1) % 4], centre, at, p);
+    if (p->beyond == 0.0)
+      return;
+  }
   for (int k = 0; k < 4; k++) {
     cdem_projection q;
     triangle(corner[k], corner[(k + 1) % 4], centre, at, &q);
@@ -335,34 +372,80 @@ static void nearest(const patch_polygon *p, const double at[3], patch_corner *to
   }
 }
 
+/* Out of a side, in the plane; not of unit length. */
+static void side_out(int corners, const double corner[4][3], int side, const double normal[3],
+                     double out[3]) {
+  double edge[3];
+  int to = corners == 2 ? 1 - side : (side + 1) % corners;
+  for (int i = 0; i < 3; i++)
+    edge[i] = corner[to][i] - corner[side][i];
+  if (corners == 2)
+    for (int i = 0; i < 3; i++)
+      out[i] = -edge[i];
+  else
+    cdem_cross3(edge, normal, out);
+}
+
+/* Which sharp sides cut the patch (bits); -1: nothing of it is over the master. Signs only, so that
+ * most points of other places go away here. */
+static int sides_that_cut(const cdem_contact_store *s, int32_t master, int corners,
+                          const double corner[4][3], const double normal[3],
+                          const patch_polygon *patch) {
+  int cut = 0;
+  for (int side = 0; side < corners; side++) {
+    double out[3];
+    int inside = 0, outside = 0;
+    if (!(s->border[master] >> side & 1))
+      continue;
+    side_out(corners, corner, side, normal, out);
+    for (int k = 0; k < patch->corners; k++) {
+      double off = 0.0;
+      for (int i = 0; i < 3; i++)
+        off += (patch->corner[k].x[i] - corner[side][i]) * out[i];
+      inside += off < 0.0;
+      outside += off > 0.0;
+    }
+    if (inside == 0)
+      return -1;
+    cut |= (outside > 0) << side;
+  }
+  return cut;
+}
+
 bool cdem_contact_place(const cdem_contact *contact, const cdem_contact_point *point,
                         int32_t master, const double corner[4][3], cdem_projection *p) {
   const cdem_contact_store *s = contact->store;
   const double *at = s->x + 3 * (int64_t)point->node;
-  int corners = contact->blocks->facet[master].corners;
-  cdem_contact_project(contact, master, corner, at, p);
-  for (int k = 0; k < 4; k++)
-    p->own[k] = k == point->corner;
+  int corners = contact->blocks->facet[master].corners, cut = 0;
+  bool flat = is_flat(s, master);
+  patch_polygon polygon;
+  double c[4][3] = {{0.0}};
+  if (!flat || s->border[master] == 0)
+    cdem_contact_project(contact, master, corner, at, p);
+  if (s->border[master] != 0) {
+    cdem_contact_corners(contact, point->facet, c);
+    make_patch((const double(*)[3])c, contact->blocks->facet[point->facet].corners, point->corner,
+               &polygon);
+    cut = sides_that_cut(s, master, corners, corner, flat ? s->face[master].normal : p->normal,
+                         &polygon);
+    if (cut < 0)
+      return false;
+    if (flat)
+      cdem_contact_project(contact, master, corner, at, p);
+  }
+  p->outside = p->beyond;
   p->cover = 1.0;
   p->inset = 0.0;
-  if (s->border[master] == 0)
+  for (int k = 0; k < 4; k++)
+    p->own[k] = k == point->corner;
+  if (cut == 0)
     return true;
-  double c[4][3] = {{0.0}};
-  patch_polygon polygon;
-  cdem_contact_corners(contact, point->facet, c);
-  make_patch((const double(*)[3])c, contact->blocks->facet[point->facet].corners, point->corner,
-             &polygon);
   double whole = extent(&polygon, corners == 2);
   for (int side = 0; side < corners && polygon.corners > 0; side++) {
-    double out[3], edge[3];
-    int to = corners == 2 ? 1 - side : (side + 1) % corners;
-    if (!(s->border[master] >> side & 1))
+    double out[3];
+    if (!(cut >> side & 1))
       continue;
-    for (int i = 0; i < 3; i++)
-      edge[i] = corner[to][i] - corner[side][i];
-    cdem_cross3(edge, p->normal, out);
-    for (int i = 0; i < 3 && corners == 2; i++)
-      out[i] = -edge[i];
+    side_out(corners, corner, side, p->normal, out);
     clip(corner[side], out, &polygon);
   }
   p->cover = extent(&polygon, corners == 2) / whole;
@@ -372,9 +455,10 @@ bool cdem_contact_place(const cdem_contact *contact, const cdem_contact_point *p
   nearest(&polygon, at, &near);
   if (near.own[point->corner] == 1.0)
     return true;
-  double cover = p->cover;
+  double cover = p->cover, outside = p->outside;
   cdem_contact_project(contact, master, corner, near.x, p);
   p->cover = cover;
+  p->outside = outside;
   p->inset = 1.0 - near.own[point->corner];
   for (int k = 0; k < 4; k++)
     p->own[k] = near.own[k];

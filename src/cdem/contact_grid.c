@@ -92,21 +92,33 @@ static bool is_near(const cdem_contact *contact, int32_t node, int32_t facet,
   const cdem_contact_face *face = &s->face[facet];
   const double *x = s->x + 3 * (int64_t)node;
   double r[3] = {x[0] - face->centre[0], x[1] - face->centre[1], x[2] - face->centre[2]};
-  double off = cdem_dot3(r, face->normal), radius = 0.0;
+  double off = cdem_dot3(r, face->normal), radius;
   if (off > skin + face->warp || off < -(s->depth[facet] + skin + face->warp))
     return false;
-  double over = s->border[facet] != 0 ? fmin(s->size[facet], s->reach[node]) : s->depth[facet];
-  for (int k = 0; k < contact->blocks->facet[facet].corners; k++) {
-    double c[3] = {corner[k][0] - face->centre[0], corner[k][1] - face->centre[1],
-                   corner[k][2] - face->centre[2]};
-    radius = fmax(radius, cdem_dot3(c, c));
-  }
-  radius = sqrt(radius) + over + 2.0 * skin + face->warp + s->depth[facet];
+  double over = s->depth[facet];
+  if (s->border[facet] != 0)
+    over = fmax(over, fmin(s->size[facet], s->reach[node]));
+  radius = face->radius + over + 2.0 * skin + face->warp + s->depth[facet];
   if (cdem_dot3(r, r) > radius * radius)
     return false;
-  cdem_projection p;
-  cdem_contact_project(contact, facet, corner, x, &p);
-  return p.gap >= -skin && p.gap <= s->depth[facet] + skin && p.beyond <= over + skin;
+  /* Not beyond a side by more than that, in the facet's plane. */
+  int corners = contact->blocks->facet[facet].corners;
+  for (int k = 0; k < corners; k++) {
+    int to = corners == 2 ? 1 - k : (k + 1) % corners;
+    double side[3], out[3], length = 0.0, beyond = 0.0;
+    for (int i = 0; i < 3; i++)
+      side[i] = corner[to][i] - corner[k][i];
+    cdem_cross3(side, face->normal, out);
+    for (int i = 0; i < 3; i++) {
+      out[i] = corners == 2 ? -side[i] : out[i];
+      beyond += (x[i] - corner[k][i]) * out[i];
+      length += out[i] * out[i];
+    }
+    double most = over + skin + face->warp;
+    if (beyond > 0.0 && beyond * beyond > most * most * length)
+      return false;
+  }
+  return true;
 }
 
 static void take(const cdem_contact *contact, int32_t f, int32_t n, const double corner[4][3],

@@ -96,17 +96,16 @@ static double affordable(const cdem_contact_store *s, const cdem_contact_input *
   if (!(force > 0.0) || d >= 0.0 || !(in->surface_mass > 0.0))
     return fmax(0.0, force);
   double c = s->dt * s->dt / (in->surface_mass * in->weight);
-  if (-d + c * force <= in->gap)
+  if (-d + c * force <= force / k)
     return force;
   return fmin(force, 2.0 * fmax(0.0, energy) / (-d + sqrt(d * d + 2.0 * c * fmax(0.0, energy))));
 }
 
 /* The elastic sliding brought to the present plane and weight. A weight that grows makes no energy.
  */
-static void stick_before(const cdem_contact *contact, const cdem_contact_input *in,
-                         const cdem_touch *t, double before[3]) {
-  double axes[9], grown = t->handed || t->weight >= in->weight ? 1.0 : t->weight / in->weight;
-  cdem_contact_axes(contact, t->facet, axes);
+static void stick_before(const cdem_contact_input *in, const cdem_touch *t, const double axes[9],
+                         double before[3]) {
+  double grown = t->handed || t->weight >= in->weight ? 1.0 : t->weight / in->weight;
   to_world(axes, t->stick, before);
   into_plane(in->normal, before);
   for (int i = 0; i < 3; i++)
@@ -126,11 +125,14 @@ void cdem_touch_update(const cdem_contact *contact, const cdem_contact_input *in
   const cdem_contact_store *s = contact->store;
   const cdem_contact_law *law = in->law;
   double w = in->weight, before[3] = {0.0}, now[3], tangent[3], axes[9], d = in->rate * s->dt;
-  bool fresh = t->facet < 0, continued = !fresh && !t->handed;
-  bool placed = s->v == NULL || s->dt == 0.0 || t->handed; /* not brought there by a motion */
+  bool fresh = t->facet < 0, taken_over = t->handed, continued = !fresh && !taken_over;
+  bool still = s->v == NULL || s->dt == 0.0, placed = still || taken_over;
+  cdem_contact_axes(contact, fresh ? facet : t->facet, axes);
   if (!fresh)
-    stick_before(contact, in, t, before);
-  double put_in = continued ? half_work(s, t) : 0.0;
+    stick_before(in, t, axes, before);
+  if (!fresh && t->facet != facet)
+    cdem_contact_axes(contact, facet, axes);
+  double put_in = fresh ? 0.0 : half_work(s, t);
   double energy = continued ? normal_energy(in, t, put_in, before, d) : 0.0;
   double elastic = placed ? fmax(0.0, w * law->kn * in->gap) : affordable(s, in, energy, d);
   double normal = fmax(0.0, elastic + w * dashpot(in) * in->rate), work = 0.0;
@@ -145,9 +147,8 @@ void cdem_touch_update(const cdem_contact *contact, const cdem_contact_input *in
     work += 0.5 * law->kt * (t->weight * before[i] + w * now[i]) * slipped;
   }
   double drag = normal - elastic, shear = 0.5 * w * law->kt * cdem_dot3(now, now);
-  t->friction = continued ? fmax(0.0, work) : 0.0;
-  t->damping = fmax(0.0, 0.5 * ((continued ? t->dashpot : 0.0) + drag) * d);
-  t->stored = continued ? t->stored : 0.0;
+  double lost[2] = {continued ? work : 0.0, 0.5 * ((continued ? t->dashpot : 0.0) + drag) * d};
+  t->stored = fresh ? 0.0 : t->stored + put_in;
   t->sliding = trial > most;
   t->dashpot = drag;
   t->facet = facet;
@@ -158,12 +159,16 @@ void cdem_touch_update(const cdem_contact *contact, const cdem_contact_input *in
   t->kt = law->kt;
   set_nodes(in, t);
   nodal_forces(in, normal, tangent, t);
-  if (placed)
-    t->stored = 0.5 * elastic * in->gap + shear;
-  else
-    t->stored += put_in + half_work(s, t) - t->friction - t->damping;
+  /* A released pair brings what its springs held on the whole face. */
+  double held = 0.5 * elastic * in->gap * (taken_over ? in->whole / w : 1.0) + shear;
+  t->stored = still ? held + fmax(0.0, lost[0]) : t->stored + half_work(s, t);
+  if (taken_over && !still)
+    lost[0] = t->stored - held;
+  /* Nothing is dissipated that was not put in. */
+  t->friction = fmax(0.0, fmin(lost[0], t->stored));
+  t->damping = fmax(0.0, fmin(lost[1], t->stored - t->friction));
+  t->stored -= t->friction + t->damping;
   double left = !placed && t->stored < shear ? fmax(0.0, t->stored) / shear : 1.0;
-  cdem_contact_axes(contact, facet, axes);
   to_local(axes, now, t->stick);
   for (int i = 0; i < 3; i++)
     t->stick[i] *= sqrt(left);

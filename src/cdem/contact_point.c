@@ -84,7 +84,8 @@ static int64_t slot_of(const cdem_contact_store *s, int32_t point, int32_t compo
   return i;
 }
 
-static void try_facet(cdem_contact *contact, int32_t point, int32_t master, double floor) {
+static void try_facet(cdem_contact *contact, int32_t point, int32_t master, double floor,
+                      cdem_projection *best) {
   cdem_contact_store *s = contact->store;
   const cdem_contact_point *p = &s->point[point];
   const double *at = s->x + 3 * (int64_t)p->node;
@@ -92,41 +93,45 @@ static void try_facet(cdem_contact *contact, int32_t point, int32_t master, doub
   if (-100.0 * cdem_dot3(s->face[p->facet].normal, face->normal) <= FACING_LOW)
     return;
   double r[3] = {at[0] - face->centre[0], at[1] - face->centre[1], at[2] - face->centre[2]};
-  if (-cdem_dot3(r, face->normal) + face->warp <= floor)
+  double near = -cdem_dot3(r, face->normal), size = fmin(s->size[master], s->size[p->facet]);
+  double far = face->radius + fmax(size, 1.5 * s->patch[p->facet]);
+  if (near + face->warp <= floor || cdem_dot3(r, r) > near * near + far * far)
     return;
   double corner[4][3];
   cdem_projection q;
   cdem_contact_corners(contact, master, corner);
-  cdem_contact_project(contact, master, (const double(*)[3])corner, at, &q);
-  double beyond = q.beyond, size = fmin(s->size[master], s->size[p->facet]);
-  if (beyond > size || !cdem_contact_place(contact, p, master, (const double(*)[3])corner, &q))
+  if (!cdem_contact_place(contact, p, master, (const double(*)[3])corner, &q) || q.outside > size)
     return;
   /* In a concave edge the foot may leave both faces by as much as the point is inside. */
   if (q.gap <= floor || q.beyond > fmax(1e-9 * size, fabs(q.gap)))
     return;
   int64_t slot = slot_of(s, point, s->component[master]);
-  const cdem_touch *touch = &s->touch[slot];
+  const cdem_touch *touch = cdem_touch_of(s, s->slot_touch[slot]);
   if (q.gap > s->depth[master]) {
-    if (beyond == 0.0 && (touch->facet == master || gap_before(contact, p, master, q.own) <= 0.0))
+    if (q.outside == 0.0 &&
+        ((touch != NULL && touch->facet == master) || gap_before(contact, p, master, q.own) <= 0.0))
       s->deep[slot] = master;
     return;
   }
-  double score = q.gap * q.gap + beyond * beyond;
+  double score = q.gap * q.gap + q.outside * q.outside;
   if (s->trial[slot] >= 0 && score >= s->score[slot])
     return;
-  if (touch->facet < 0 && !may_begin(contact, p, master, &q))
+  if (touch == NULL && !may_begin(contact, p, master, &q))
     return;
   s->trial[slot] = master;
   s->score[slot] = score;
+  int64_t place = slot - s->slot_start[point];
+  if (best != NULL && place < CDEM_CONTACT_BEST)
+    best[place] = q;
 }
 
-void cdem_contact_look(cdem_contact *contact, int32_t point, double floor) {
+void cdem_contact_look(cdem_contact *contact, int32_t point, double floor, cdem_projection *best) {
   cdem_contact_store *s = contact->store;
   int32_t surface = s->point[point].surface;
   for (int64_t i = s->slot_start[point]; i < s->slot_start[point + 1]; i++)
     s->trial[i] = s->deep[i] = -1;
   for (int64_t c = s->candidate_start[surface]; c < s->candidate_start[surface + 1]; c++)
-    try_facet(contact, point, s->candidate[c], floor);
+    try_facet(contact, point, s->candidate[c], floor, best);
 }
 
 /* Mass per area of the two surfaces in series. */
@@ -207,51 +212,82 @@ double cdem_contact_lever(const cdem_contact *contact, const cdem_contact_point 
 }
 
 static void press(cdem_contact *contact, const cdem_contact_point *point, int32_t master,
-                  cdem_touch *t) {
+                  const cdem_projection *p, cdem_touch *t) {
   cdem_contact_store *s = contact->store;
   const cdem_facet *f = &contact->blocks->facet[master];
   double corner[4][3], shape[4];
-  cdem_projection p;
-  cdem_contact_corners(contact, master, corner);
-  bool over = cdem_contact_place(contact, point, master, (const double(*)[3])corner, &p);
   cdem_contact_input in = {
-      .law = cdem_contact_law_between(s, contact->blocks, point->facet, master), .gap = p.gap};
-  in.weight = over ? cdem_contact_weight(contact, point, master, &p) : 0.0;
+      .law = cdem_contact_law_between(s, contact->blocks, point->facet, master), .gap = p->gap};
+  in.weight = cdem_contact_weight(contact, point, master, p);
+  in.whole = in.weight / p->cover;
   if (!(in.weight > 0.0)) {
     if (t->facet >= 0)
       cdem_touch_end(contact, t);
     return;
   }
-  cdem_contact_shapes(contact, master, (const double(*)[3])corner, &p, shape, in.gradient);
-  fill_nodes(contact, point, f, shape, p.own, &in);
+  cdem_contact_corners(contact, master, corner);
+  cdem_contact_shapes(contact, master, (const double(*)[3])corner, p, shape, in.gradient);
+  fill_nodes(contact, point, f, shape, p->own, &in);
   for (int i = 0; i < 3; i++)
-    in.normal[i] = p.normal[i];
+    in.normal[i] = p->normal[i];
   in.rate = overlap_rate(s, &in);
   in.surface_mass = surface_mass(contact, point, f, shape);
   if (t->facet >= 0)
-    slip_since(contact, point, t, &p, in.slip);
+    slip_since(contact, point, t, p, in.slip);
   cdem_touch_update(contact, &in, master, t);
   for (int k = 0; k < 4; k++) {
     t->shape[k] = shape[k];
-    t->own[k] = p.own[k];
+    t->own[k] = p->own[k];
   }
   for (int i = 0; i < 3; i++)
-    t->position[i] = p.foot[i];
+    t->position[i] = p->foot[i];
 }
 
-int64_t cdem_contact_point_step(cdem_contact *contact, int32_t point) {
+/* Every slot that is tried has room for its contact; false: the pool is full. */
+static bool find_room(cdem_contact_store *s, int64_t from, int64_t to) {
+  for (int64_t i = from; i < to; i++)
+    if (s->trial[i] >= 0 && s->slot_touch[i] < 0 && (s->slot_touch[i] = cdem_contact_take(s)) < 0)
+      return false;
+  return true;
+}
+
+static void step_slot(cdem_contact *contact, int32_t point, int64_t i,
+                      const cdem_projection *known) {
   cdem_contact_store *s = contact->store;
-  int64_t failed = -1;
-  cdem_contact_look(contact, point, 0.0);
-  for (int64_t i = s->slot_start[point]; i < s->slot_start[point + 1]; i++) {
-    cdem_touch *t = &s->touch[i];
-    t->friction = t->damping = 0.0;
-    if (s->trial[i] >= 0)
-      press(contact, &s->point[point], s->trial[i], t);
-    else if (s->deep[i] >= 0)
-      failed = i;
-    else if (t->facet >= 0)
+  cdem_touch *t = &s->pool[s->slot_touch[i]];
+  t->friction = t->damping = 0.0;
+  if (s->trial[i] < 0) {
+    if (t->facet >= 0 && s->deep[i] < 0)
       cdem_touch_end(contact, t);
+    return;
+  }
+  double corner[4][3];
+  cdem_projection other;
+  if (known == NULL) {
+    cdem_contact_corners(contact, s->trial[i], corner);
+    cdem_contact_place(contact, &s->point[point], s->trial[i], (const double(*)[3])corner, &other);
+  }
+  press(contact, &s->point[point], s->trial[i], known != NULL ? known : &other, t);
+}
+
+int64_t cdem_contact_point_step(cdem_contact *contact, int32_t live) {
+  cdem_contact_store *s = contact->store;
+  int32_t point = s->live_point[live];
+  int64_t failed = -1, first = s->slot_start[point], end = s->slot_start[point + 1];
+  cdem_projection best[CDEM_CONTACT_BEST];
+  cdem_contact_look(contact, point, 0.0, best);
+  s->busy[live] = 0;
+  if (!find_room(s, first, end)) {
+    s->busy[live] = CDEM_DEFERRED;
+    return -1;
+  }
+  for (int64_t i = first; i < end; i++) {
+    if (s->deep[i] >= 0 && s->trial[i] < 0)
+      failed = i;
+    if (s->slot_touch[i] < 0)
+      continue;
+    s->busy[live] = CDEM_BUSY;
+    step_slot(contact, point, i, i - first < CDEM_CONTACT_BEST ? &best[i - first] : NULL);
   }
   return failed;
 }

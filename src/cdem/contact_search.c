@@ -13,26 +13,26 @@ cdem_status cdem_contact_carry(cdem_contact *contact, cdem_fault *fault) {
     return CDEM_OK;
   int64_t slots = s->slot_start[s->points], found = 0, edges = 0;
   for (int64_t i = 0; i < slots; i++)
-    found += s->touch[i].facet >= 0;
+    found += cdem_touch_of(s, s->slot_touch[i]) != NULL;
   for (int64_t i = 0; i < s->edge_pairs; i++)
-    edges += s->edge_touch[i].facet >= 0;
+    edges += cdem_touch_of(s, s->edge_touch[i]) != NULL;
   CDEM_TRY(cdem_grow(&s->carry, &s->carried_capacity, found, sizeof *s->carry, fault));
   CDEM_TRY(cdem_grow(&s->edge_key, &s->edge_carried_capacity, edges, sizeof *s->edge_key, fault));
   CDEM_TRY(cdem_grow(&s->edge_carry, &s->edge_touch_capacity, edges, sizeof *s->edge_carry, fault));
   s->carried = s->edge_carried = 0;
   for (int32_t p = 0; p < s->points; p++)
     for (int64_t i = s->slot_start[p]; i < s->slot_start[p + 1]; i++)
-      if (s->touch[i].facet >= 0)
-        s->carry[s->carried++] =
-            (cdem_carried){4 * (int64_t)s->point[p].facet + s->point[p].corner, s->touch[i]};
+      if (cdem_touch_of(s, s->slot_touch[i]) != NULL)
+        s->carry[s->carried++] = (cdem_carried){4 * (int64_t)s->point[p].facet + s->point[p].corner,
+                                                s->pool[s->slot_touch[i]]};
   for (int64_t i = 0; i < s->edge_pairs; i++) {
-    if (s->edge_touch[i].facet < 0)
+    if (cdem_touch_of(s, s->edge_touch[i]) == NULL)
       continue;
     for (int k = 0; k < 2; k++) {
       const cdem_contact_edge *e = &s->edge[s->edge_pair[i].edge[k]];
       s->edge_key[s->edge_carried][k] = 4 * (int64_t)e->facet[0] + e->side[0];
     }
-    s->edge_carry[s->edge_carried++] = s->edge_touch[i];
+    s->edge_carry[s->edge_carried++] = s->pool[s->edge_touch[i]];
   }
   free(s->slot_start);
   s->slot_start = NULL;
@@ -63,15 +63,15 @@ static cdem_status make_slot_arrays(cdem_contact_store *s, int64_t slots, cdem_f
   free(s->trial);
   free(s->deep);
   free(s->score);
-  free(s->touch);
+  free(s->slot_touch);
   s->slot_component = s->trial = s->deep = NULL;
   s->score = NULL;
-  s->touch = NULL;
+  s->slot_touch = NULL;
   CDEM_NEW(s->slot_component, slots, fault);
   CDEM_NEW(s->trial, slots, fault);
   CDEM_NEW(s->deep, slots, fault);
   CDEM_NEW(s->score, slots, fault);
-  CDEM_NEW(s->touch, slots, fault);
+  CDEM_NEW(s->slot_touch, slots, fault);
   return CDEM_OK;
 }
 
@@ -94,19 +94,23 @@ static cdem_status make_slots(cdem_contact *contact, cdem_fault *fault) {
   for (int32_t p = 0; p < s->points; p++)
     components_of(s, p, s->slot_component + start[p]);
   for (int64_t i = 0; i < start[s->points]; i++)
-    s->touch[i].facet = -1;
+    s->slot_touch[i] = -1;
   s->slot_start = start;
   return CDEM_OK;
 }
 
-/* The slot of a point for the component of a facet, NULL when they are no longer near. */
+/* Room for the contact of a point with the component of a facet; NULL when they are no longer near.
+ */
 static cdem_touch *find_slot(cdem_contact_store *s, int32_t facet, int corner, int32_t master) {
   if (s->point_start[facet] < 0)
     return NULL;
   int32_t p = s->point_start[facet] + corner;
   for (int64_t i = s->slot_start[p]; i < s->slot_start[p + 1]; i++)
-    if (s->slot_component[i] == s->component[master])
-      return &s->touch[i];
+    if (s->slot_component[i] == s->component[master]) {
+      if (s->slot_touch[i] < 0)
+        s->slot_touch[i] = cdem_contact_take(s);
+      return &s->pool[s->slot_touch[i]];
+    }
   return NULL;
 }
 
@@ -155,9 +159,10 @@ static void place_carried(cdem_contact *contact) {
         s->edge_pairs == 0
             ? NULL
             : bsearch(&key, s->edge_pair, (size_t)s->edge_pairs, sizeof key, compare_edge_pair);
-    if (found != NULL)
-      s->edge_touch[found - s->edge_pair] = s->edge_carry[i];
-    else
+    if (found != NULL) {
+      s->edge_touch[found - s->edge_pair] = cdem_contact_take(s);
+      s->pool[s->pooled - 1] = s->edge_carry[i];
+    } else
       lose(s, s->edge_carry[i], contact);
   }
   s->carried = s->edge_carried = 0;
@@ -166,7 +171,7 @@ static void place_carried(cdem_contact *contact) {
 /* The history of one corner: half of the force each way, F_t/2 = -w kt s with w half the corner's
  * share. `sign`: of the force on the slave. */
 static void start_history(cdem_contact *contact, int32_t slave, int corner, int32_t master,
-                          const double force[3], double sign) {
+                          int32_t partner, const double force[3], double sign) {
   cdem_contact_store *s = contact->store;
   cdem_touch *t = find_slot(s, slave, corner, master);
   if (t == NULL || t->facet >= 0)
@@ -184,6 +189,16 @@ static void start_history(cdem_contact *contact, int32_t slave, int corner, int3
     world[i] = stiffness > 0.0 ? -sign * (force[i] - along * p.normal[i]) / stiffness : 0.0;
   for (int i = 0; i < 3; i++)
     t->stick[i] = cdem_dot3(axes + 3 * i, world);
+  /* Until now the springs acted between the two nodes, and held f^2/2k. */
+  double normal = along * along / (s->share[slave][corner] * law->kn);
+  t->stored = 0.25 * (normal + stiffness * cdem_dot3(world, world));
+  t->nodes = 2;
+  t->node[0] = node;
+  t->node[1] = partner;
+  for (int i = 0; i < 3; i++) {
+    t->nodal[0][i] = 0.5 * sign * force[i];
+    t->nodal[1][i] = -0.5 * sign * force[i];
+  }
   t->facet = master;
   t->own[corner] = 1.0;
   t->handed = 1;
@@ -207,7 +222,7 @@ static void place_handed(cdem_contact *contact) {
       int32_t master = blocks->pair_facet[2 * (int64_t)p + 1 - side];
       for (int k = 0; k < pair->corners; k++)
         start_history(contact, slave, corner_of(&blocks->facet[slave], pair->node[side][k]), master,
-                      s->handed_force[p][k], side == 1 ? 1.0 : -1.0);
+                      pair->node[1 - side][k], s->handed_force[p][k], side == 1 ? 1.0 : -1.0);
     }
     s->handed_mark[p] = 0;
   }
@@ -244,6 +259,9 @@ cdem_status cdem_contact_rebuild(cdem_contact *contact, cdem_fault *fault) {
   CDEM_TRY(make_slots(contact, fault));
   if (s->edge_pairs > 0)
     qsort(s->edge_pair, (size_t)s->edge_pairs, sizeof *s->edge_pair, compare_edge_pair);
+  s->pooled = 0;
+  CDEM_TRY(
+      cdem_contact_make_room(s, s->carried + s->edge_carried + 8 * (int64_t)s->handed + 64, fault));
   place_carried(contact);
   place_handed(contact);
   mark_facets(contact);

@@ -25,7 +25,7 @@ static void add_row(cdem_contact_store *s, const int32_t *node, const double *b,
 static void add_point(cdem_contact *contact, int32_t point, double *lag) {
   cdem_contact_store *s = contact->store;
   const cdem_contact_point *p = &s->point[point];
-  cdem_contact_look(contact, point, -s->skin);
+  cdem_contact_look(contact, point, -s->skin, NULL);
   for (int64_t i = s->slot_start[point]; i < s->slot_start[point + 1]; i++) {
     int32_t master = s->trial[i];
     if (master < 0)
@@ -51,8 +51,8 @@ double cdem_contact_frequency2(const cdem_contact *contact) {
   for (int32_t i = 0; i < s->live; i++)
     add_point(&scratch, s->live_point[i], &lag);
   for (int64_t i = 0; i < s->edge_pairs; i++) {
-    const cdem_touch *t = &s->edge_touch[i];
-    if (t->facet < 0)
+    const cdem_touch *t = cdem_touch_of(s, s->edge_touch[i]);
+    if (t == NULL)
       continue;
     double b[4] = {1.0 - t->shape[0], t->shape[0], 1.0 - t->shape[1], t->shape[1]};
     add_row(s, t->node, b, 4, t->weight * fmax(t->kn, t->kt));
@@ -100,9 +100,9 @@ cdem_status cdem_contact_fields_get(const cdem_contact *contact, cdem_contact_fi
   int64_t count = 0, slots = s->slot_start != NULL ? s->slot_start[s->points] : 0;
   memset(fields, 0, sizeof *fields);
   for (int64_t i = 0; i < slots; i++)
-    count += s->touch[i].facet >= 0;
+    count += cdem_touch_of(s, s->slot_touch[i]) != NULL;
   for (int64_t i = 0; i < s->edge_pairs; i++)
-    count += s->edge_touch[i].facet >= 0;
+    count += cdem_touch_of(s, s->edge_touch[i]) != NULL;
   cdem_status status = make_fields(count, fields, fault);
   if (status != CDEM_OK) {
     cdem_contact_fields_release(fields);
@@ -110,11 +110,11 @@ cdem_status cdem_contact_fields_get(const cdem_contact *contact, cdem_contact_fi
   }
   for (int32_t p = 0; p < s->points && slots > 0; p++)
     for (int64_t i = s->slot_start[p]; i < s->slot_start[p + 1]; i++)
-      if (s->touch[i].facet >= 0)
-        put(contact, &s->touch[i], s->point[p].facet, fields);
+      if (cdem_touch_of(s, s->slot_touch[i]) != NULL)
+        put(contact, &s->pool[s->slot_touch[i]], s->point[p].facet, fields);
   for (int64_t i = 0; i < s->edge_pairs; i++)
-    if (s->edge_touch[i].facet >= 0)
-      put(contact, &s->edge_touch[i], s->edge[s->edge_pair[i].edge[1]].facet[0], fields);
+    if (cdem_touch_of(s, s->edge_touch[i]) != NULL)
+      put(contact, &s->pool[s->edge_touch[i]], s->edge[s->edge_pair[i].edge[1]].facet[0], fields);
   return CDEM_OK;
 }
 
@@ -174,14 +174,14 @@ static void pack_all(const cdem_contact_store *s, double *real, int32_t *id) {
   int64_t n = 0;
   for (int32_t p = 0; s->slot_start != NULL && p < s->points; p++)
     for (int64_t i = s->slot_start[p]; i < s->slot_start[p + 1]; i++)
-      if (s->touch[i].facet >= 0) {
-        pack(&s->touch[i], real + REALS * n, id + IDS * n);
+      if (cdem_touch_of(s, s->slot_touch[i]) != NULL) {
+        pack(&s->pool[s->slot_touch[i]], real + REALS * n, id + IDS * n);
         id[IDS * n + 12] = s->point[p].facet;
         id[IDS * n++ + 13] = s->point[p].corner;
       }
   for (int64_t i = 0; i < s->edge_pairs; i++)
-    if (s->edge_touch[i].facet >= 0) {
-      pack(&s->edge_touch[i], real + REALS * n, id + IDS * n);
+    if (cdem_touch_of(s, s->edge_touch[i]) != NULL) {
+      pack(&s->pool[s->edge_touch[i]], real + REALS * n, id + IDS * n);
       for (int k = 0; k < 2; k++) {
         const cdem_contact_edge *e = &s->edge[s->edge_pair[i].edge[k]];
         id[IDS * n + 12 + 2 * k] = e->facet[0];
@@ -194,9 +194,9 @@ static void pack_all(const cdem_contact_store *s, double *real, int32_t *id) {
 static cdem_status save_touches(const cdem_contact_store *s, cdem_state *state, cdem_fault *fault) {
   int64_t slots = s->slot_start != NULL ? s->slot_start[s->points] : 0, count = 0;
   for (int64_t i = 0; i < slots; i++)
-    count += s->touch[i].facet >= 0;
+    count += cdem_touch_of(s, s->slot_touch[i]) != NULL;
   for (int64_t i = 0; i < s->edge_pairs; i++)
-    count += s->edge_touch[i].facet >= 0;
+    count += cdem_touch_of(s, s->edge_touch[i]) != NULL;
   double *real = cdem_allocate(REALS * count, sizeof *real, fault);
   int32_t *id = cdem_allocate(IDS * count, sizeof *id, fault);
   cdem_status status = real != NULL && id != NULL ? CDEM_OK : CDEM_MEMORY;

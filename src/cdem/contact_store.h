@@ -18,6 +18,7 @@ enum { CDEM_ACTIVE = 1, CDEM_FRESH = 2 }; /* fresh: not yet seen by an evaluatio
  * of its facet when the point is inset). Edge-edge: 0, 1 of edge 1 (master), 2, 3 of edge 2. */
 typedef struct {
   int32_t facet;                  /* master facet (edges: lower facet of edge 1), -1: no contact */
+  double friction, damping;       /* J, dissipated in the last step */
   uint8_t nodes, sliding, handed; /* handed: starts its history with this evaluation */
   int32_t node[8];
   double shape[4];    /* shape functions of the master facet at the projection; edges: t1, t2 */
@@ -27,7 +28,6 @@ typedef struct {
   double kn, kt;      /* Pa/m */
   double dashpot;     /* N, of F_n */
   double stored;      /* J, what the nodes have put in and not got back */
-  double friction, damping; /* J, dissipated in the last step */
   double force[3], normal[3], position[3];
   double nodal[8][3]; /* N */
 } cdem_touch;
@@ -49,9 +49,9 @@ typedef struct {
   int32_t edge[2]; /* edge[0] < edge[1]: 1 and 2 of contact_edge.c */
 } cdem_edge_pair;
 
-/* A facet now: mean normal, centre, and how far a corner is off the mean plane. */
+/* A facet now: mean normal, centre, how far a corner is off the mean plane and off the centre. */
 typedef struct {
-  double normal[3], centre[3], warp;
+  double normal[3], centre[3], warp, radius;
 } cdem_contact_face;
 
 /* A touch that waits for its slot in a new list. */
@@ -70,6 +70,7 @@ struct cdem_contact_store {
 
   /* of the reference configuration, by facet */
   double (*share)[4], *size, *depth;
+  double *patch;     /* largest distance from a corner to the rest of its patch */
   double *node_area; /* [nodes] */
 
   uint8_t *active; /* [facets] */
@@ -93,7 +94,7 @@ struct cdem_contact_store {
   /* positions */
   double *x;       /* [nodes][3], of surface nodes only */
   double *built;   /* [surface_nodes][3] positions at the rebuild */
-  double *reach;   /* [nodes] largest facet around a surface node */
+  double *reach;   /* [nodes] largest patch around a surface node */
   double sweep;    /* largest motion of a step at the rebuild, m */
   const double *v; /* of the present evaluation, may be NULL */
   double dt;
@@ -107,14 +108,18 @@ struct cdem_contact_store {
   int32_t *candidate;       /* facets, ascending for each node */
   int32_t live;             /* points with candidates */
   int32_t *live_point;
+  uint8_t *busy;           /* [live] CDEM_BUSY: has or had a contact in this evaluation */
   int64_t *slot_start;     /* [points + 1] */
   int32_t *slot_component; /* [slots] */
   int32_t *trial, *deep;   /* [slots] facet of this step, -1 */
   double *score;           /* [slots] */
-  cdem_touch *touch;       /* [slots] */
+  int32_t *slot_touch;     /* [slots] in `pool`, -1: never had a contact */
   int64_t edge_pairs;
   cdem_edge_pair *edge_pair;
-  cdem_touch *edge_touch;
+  int32_t *edge_touch; /* [edge_pairs] in `pool`, -1 */
+  uint8_t *edge_busy;  /* as busy */
+  int64_t pooled, pool_capacity;
+  cdem_touch *pool; /* in any order: read by slots only */
   int64_t carried, carried_capacity;
   cdem_carried *carry;
   int64_t edge_carried, edge_carried_capacity;
@@ -127,9 +132,23 @@ struct cdem_contact_store {
   int64_t contacts, rebuilds, visits;
 };
 
+enum { CDEM_BUSY = 1, CDEM_DEFERRED = 2 }; /* deferred: the pool was full, to be done again */
+
+/* The contact of a slot, or NULL. */
+static inline cdem_touch *cdem_touch_of(const cdem_contact_store *s, int32_t at) {
+  return at >= 0 && s->pool[at].facet >= 0 ? &s->pool[at] : NULL;
+}
+
+/* contact_pool.c */
+/* Room for one more contact, without one; by any thread. -1: the pool is full. */
+int32_t cdem_contact_take(cdem_contact_store *s);
+/* Room for `more`. */
+cdem_status cdem_contact_make_room(cdem_contact_store *s, int64_t more, cdem_fault *fault);
+
 /* A slave point against the plane of a master facet. */
 typedef struct {
   double gap, beyond; /* overlap; distance of the foot outside the facet, in its plane */
+  double outside;     /* that of the corner itself */
   double normal[3], foot[3];
   double lambda[3];
   double own[4], inset; /* shape functions of the point in its own facet; 1 - that of its corner */
@@ -166,7 +185,7 @@ cdem_status cdem_contact_rebuild(cdem_contact *contact, cdem_fault *fault);
 cdem_status cdem_contact_candidates(cdem_contact *contact, cdem_fault *fault);
 /* contact_edges.c */
 cdem_status cdem_contact_edge_candidates(cdem_contact *contact, cdem_fault *fault);
-int64_t cdem_contact_edges_step(cdem_contact *contact);
+int64_t cdem_contact_edges_step(cdem_contact *contact, bool again, int64_t *failed);
 
 /* contact_point.c */
 const cdem_contact_law *cdem_contact_law_between(const cdem_contact_store *s,
@@ -174,9 +193,10 @@ const cdem_contact_law *cdem_contact_law_between(const cdem_contact_store *s,
                                                  int32_t master);
 /* Looks through the candidates of a point: the closest facet of each component, in `trial`. `floor`
  * is the least overlap that counts (0, or minus a skin). */
-void cdem_contact_look(cdem_contact *contact, int32_t point, double floor);
-/* The slot that is too deep inside, or -1. */
-int64_t cdem_contact_point_step(cdem_contact *contact, int32_t point);
+void cdem_contact_look(cdem_contact *contact, int32_t point, double floor, cdem_projection *best);
+enum { CDEM_CONTACT_BEST = 16 }; /* `best` [CDEM_CONTACT_BEST], or NULL: of the first slots */
+/* Of live_point[live]: the slot that is too deep inside, or -1. */
+int64_t cdem_contact_point_step(cdem_contact *contact, int32_t live);
 /* The share of a point's area that acts on a projection: facing, coverage and two-pass part. */
 double cdem_contact_weight(const cdem_contact *contact, const cdem_contact_point *point,
                            int32_t master, const cdem_projection *projection);
@@ -189,6 +209,7 @@ double cdem_contact_lever(const cdem_contact *contact, const cdem_contact_point 
 typedef struct {
   const cdem_contact_law *law;
   double weight, gap, rate; /* m^2, m, m/s */
+  double whole;             /* weight, if all of the patch were over the master */
   double normal[3];
   double slip[3]; /* of this step, in the plane, geometric */
   int nodes;

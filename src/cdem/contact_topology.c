@@ -89,7 +89,7 @@ static void list_surface(cdem_contact *contact) {
     for (int k = 0; k < blocks->facet[f].corners; k++) {
       int32_t n = blocks->facet[f].node[k];
       s->point[s->points++] = (cdem_contact_point){f, n, -1, (uint8_t)k};
-      s->reach[n] = fmax(s->reach[n], s->size[f]);
+      s->reach[n] = fmax(s->reach[n], s->patch[f]);
     }
   }
   /* `surface` of the points by way of a table that the frequency owns. */

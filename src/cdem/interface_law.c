@@ -366,7 +366,8 @@ void cdem_interface_law_traction(const cdem_interface_law *law, const double del
 }
 
 bool cdem_interface_law_reached(const cdem_interface_law *law, const double traction[3]) {
-  double sigma = -traction[0], tau = hypot(traction[1], traction[2]);
+  double sigma = -traction[0];
+  double tau = sqrt(traction[1] * traction[1] + traction[2] * traction[2]);
   return (sigma > 0 && sigma >= law->tension) ||
          (tau > 0 && tau >= fmax(0, law->cohesion - sigma * law->friction));
 }

@@ -166,6 +166,11 @@ void cdem_solver_energies(cdem_solver *solver, cdem_energy_book *book);
 double cdem_solver_reaction(const cdem_solver *solver, int support);
 void cdem_solver_plate(const cdem_solver *solver, int plate, double force[3], double moved[3]);
 
+/* What holds or pushes some nodes (ascending), [dofs], N: the sum of loads, pressures and what is
+ * missing to equilibrium over their points, each tied cluster taken whole and once. */
+void cdem_solver_held(const cdem_solver *solver, int32_t nodes, const int32_t *node,
+                      double force[3]);
+
 /* Velocity at t_n, (v_{n-1/2} + v_{n+1/2})/2, [nodes][dofs]. */
 void cdem_solver_velocity(const cdem_solver *solver, double *velocity);
 /* Linear momentum (dim), kg m/s, and angular momentum about the origin, at t_n - dt/2. */

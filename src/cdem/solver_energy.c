@@ -135,6 +135,45 @@ double cdem_solver_reaction(const cdem_solver *solver, int support) {
   return sum;
 }
 
+static bool is_listed(int32_t nodes, const int32_t *node, int32_t sought) {
+  int32_t from = 0, to = nodes;
+  while (from < to) {
+    int32_t middle = from + (to - from) / 2;
+    if (node[middle] < sought)
+      from = middle + 1;
+    else
+      to = middle;
+  }
+  return from < nodes && node[from] == sought;
+}
+
+static void add_held(const cdem_solver *solver, int32_t node, double force[3]) {
+  const cdem_solver_options *o = &solver->store->options;
+  for (int i = 0; i < solver->dofs; i++) {
+    int64_t at = (int64_t)node * solver->dofs + i;
+    double weight = i < solver->store->dimension ? o->body->mass[at] * o->gravity[i] : 0.0;
+    force[i] += solver->external[at] - weight - solver->force[at];
+  }
+}
+
+void cdem_solver_held(const cdem_solver *solver, int32_t nodes, const int32_t *node,
+                      double force[3]) {
+  const cdem_solver_store *s = solver->store;
+  memset(force, 0, 3 * sizeof *force);
+  for (int32_t k = 0; k < nodes; k++) {
+    if (!(s->flag[node[k]] & CDEM_NODE_TIED)) {
+      add_held(solver, node[k], force);
+      continue;
+    }
+    const cdem_ties *ties = &s->options.interfaces->ties;
+    int32_t c = s->cluster_of[node[k]], first = ties->start[c], end = ties->start[c + 1];
+    while (!is_listed(nodes, node, ties->member[first]))
+      first++;
+    for (int32_t m = ties->start[c]; m < end && ties->member[first] == node[k]; m++)
+      add_held(solver, ties->member[m], force);
+  }
+}
+
 void cdem_solver_plate(const cdem_solver *solver, int plate, double force[3], double moved[3]) {
   const cdem_plate_store *store = &solver->store->plate[plate];
   memcpy(force, store->force, sizeof store->force);

@@ -30,8 +30,7 @@ static void insert_interfaces(cdem_solver *solver) {
   if (s->cell_stress == NULL || !cdem_interfaces_any_tied(interfaces))
     return;
   const cdem_model *model = s->options.body->model;
-  cdem_body_fields fields = {.stress = s->cell_stress};
-  cdem_body_cell_fields(s->options.body, solver->u, &fields);
+  cdem_body_cell_stress(s->options.body, solver->u, s->cell_stress);
 #pragma omp parallel for schedule(static) num_threads(s->threads)
   for (int32_t c = 0; c < model->cells; c++)
     memcpy(s->mesh_stress + (size_t)6 * (size_t)model->cell[c],

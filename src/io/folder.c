@@ -6,6 +6,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
@@ -100,6 +101,47 @@ cdem_status cdem_clear_figures(const char *folder, cdem_fault *fault) {
   }
   closedir(list);
   return status;
+}
+
+/* ---- unfinished files ---- */
+
+/* ".NAME.part-123" (output.c) of a process that is gone. */
+static bool is_left_over(const char *name) {
+  const char *part = name[0] == '.' ? strstr(name, ".part-") : NULL;
+  if (part == NULL)
+    return false;
+  char *end;
+  long process = strtol(part + 6, &end, 10);
+  return process > 0 && *end == '\0' && kill((pid_t)process, 0) != 0 && errno == ESRCH;
+}
+
+static cdem_status clear_parts(const char *folder, bool below, cdem_fault *fault) {
+  DIR *list = opendir(folder);
+  cdem_status status = CDEM_OK;
+  if (list == NULL)
+    return CDEM_OK;
+  for (struct dirent *entry; status == CDEM_OK && (entry = readdir(list)) != NULL;) {
+    bool part = is_left_over(entry->d_name);
+    if (!part && (!below || entry->d_name[0] == '.'))
+      continue;
+    char *path = cdem_join_path(folder, entry->d_name, fault);
+    if (path == NULL)
+      status = CDEM_MEMORY;
+    else if (!part)
+      status = clear_parts(path, false, fault);
+    else if (unlink(path) != 0 && errno != ENOENT)
+      status = cdem_fail(fault, CDEM_FILE,
+                         "cannot remove '%s': %s; remove it, or choose another "
+                         "folder",
+                         path, strerror(errno));
+    free(path);
+  }
+  closedir(list);
+  return status;
+}
+
+cdem_status cdem_clear_parts(const char *folder, cdem_fault *fault) {
+  return clear_parts(folder, true, fault);
 }
 
 /* ---- lock ---- */

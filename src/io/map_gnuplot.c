@@ -38,8 +38,8 @@ typedef struct {
   double left, bottom, across, up;     /* the axes on the page */
   double width, height;                /* the page */
   double value_low, value_high;
-  int power; /* of ten, of both axes */
-  bool axes, bar;
+  int power;             /* of ten, of both axes */
+  bool axes, bar, above; /* above: the label of the bar, which is too long to stand beside it */
   int legend_rows;
 } layout;
 
@@ -142,8 +142,11 @@ static void lay_out(const cdem_map *map, layout *l) {
   }
   l->left = l->axes ? Y_AXIS : EDGE;
   l->bottom = (l->axes ? X_AXIS : SCALE_BAR) + l->legend_rows * LEGEND_ROW;
-  l->width = l->left + l->across + (l->bar ? BAR_GAP + BAR_WIDTH + BAR_TICS + BAR_LABEL : EDGE);
-  l->height = l->bottom + l->up + (has_text(map->title) || l->bar ? TITLE : EDGE);
+  l->above = l->bar && LETTER_WIDTH * cdem_gnuplot_letters(map->value_label) > l->up;
+  double beside = BAR_GAP + BAR_WIDTH + BAR_TICS + (l->above ? 0.0 : BAR_LABEL);
+  l->width = l->left + l->across + (l->bar ? beside : EDGE);
+  l->height = l->bottom + l->up + (has_text(map->title) || l->bar ? TITLE : EDGE) +
+              (l->above ? TITLE : 0.0);
 }
 
 /* ---- data ---- */
@@ -390,8 +393,11 @@ static void put_bar(FILE *stream, const cdem_map *map, const layout *l) {
           " noborder\nset cbtics out nomirror scale 0.3 font '" CDEM_GNUPLOT_FONT
           ",%g' offset -0.4,0 format '%%g'\n",
           CDEM_GNUPLOT_TICS_SIZE);
-  put_label(stream, map->value_label, l->width - 9.0, l->bottom + 0.5 * l->up, l,
-            "center rotate by 90");
+  if (l->above)
+    put_label(stream, map->value_label, l->width - 9.0, l->height - 12.0, l, "right");
+  else
+    put_label(stream, map->value_label, l->width - 9.0, l->bottom + 0.5 * l->up, l,
+              "center rotate by 90");
   put_power(stream, power, x, l->bottom + l->up + 10.0, l, "left");
 }
 

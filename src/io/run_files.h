@@ -51,6 +51,9 @@ cdem_status cdem_mesh_from_state(const cdem_state *state, const char *prefix, cd
 /* Removes the pictures that were drawn into a folder, with the scripts and data that drew them;
  * what else is there stays, and so does the folder. No failure when there is none. */
 cdem_status cdem_clear_figures(const char *folder, cdem_fault *fault);
+/* Removes what processes that were killed have left of unfinished files in a folder of a run and in
+ * the folders right below it; for who holds the lock. */
+cdem_status cdem_clear_parts(const char *folder, cdem_fault *fault);
 /* Makes a folder and those above it; no failure when it is there. */
 cdem_status cdem_make_folder(const char *path, cdem_fault *fault);
 /* Takes FOLDER/.lock (flock; gone with the process) in a folder that is there. CDEM_INPUT "is in

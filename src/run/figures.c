@@ -35,6 +35,12 @@ static void label(const char *name, const char *unit, char text[LABEL]) {
            unit[0] != '\0' ? "]" : "");
 }
 
+/* A probe's own name, without "probe.". */
+static const char *bare_name(const cdem_table *history, int column) {
+  const char *name = history->column[column].name;
+  return name + (strncmp(name, "probe.", 6) == 0 ? 6 : 0);
+}
+
 static cdem_status column_values(const cdem_table *history, int column, double scale,
                                  double **values, cdem_fault *fault) {
   CDEM_NEW(*values, history->rows, fault);
@@ -51,7 +57,7 @@ static cdem_status add_curve(const cdem_table *history, int column, double scale
   if (i == MOST_CURVES)
     return CDEM_OK;
   CDEM_TRY(column_values(history, column, scale, &set->y[i], fault));
-  label(history->column[column].name, "", set->title[i]);
+  label(bare_name(history, column), "", set->title[i]);
   set->curve[i] = (cdem_curve){
       .title = set->title[i], .x = set->x, .y = set->y[i], .points = history->rows, .style = i};
   set->curves++;
@@ -79,7 +85,7 @@ static axis_unit unit_for(const char *unit, double largest) {
   for (size_t i = 0; i < sizeof prefixed / sizeof prefixed[0]; i++)
     known = known || strcmp(unit, prefixed[i]) == 0;
   for (size_t i = 0; known && largest > 0.0 && i < sizeof prefix / sizeof prefix[0]; i++)
-    if (largest >= prefix[i].size || i + 1 == sizeof prefix / sizeof prefix[0]) {
+    if (largest * (1.0 + 1e-6) >= prefix[i].size || i + 1 == sizeof prefix / sizeof prefix[0]) {
       found.factor = 1.0 / prefix[i].size;
       snprintf(found.unit, sizeof found.unit, "%s%.30s", prefix[i].symbol, unit);
       break;
@@ -138,8 +144,8 @@ static cdem_status fill_curve(const cdem_case_curve *wanted, const cdem_table *h
     unit[0] = shorten_x(set, history->column[x].unit, history->rows);
   if (fabs(wanted->y_scale) == 1.0 && wanted->y_label == NULL)
     unit[1] = shorten_y(set, history->column[y].unit, largest_y(set, history->rows), history->rows);
-  label(history->column[x].name, unit[0].unit, labels[0]);
-  label(wanted->y.count == 1 ? history->column[y].name : "", unit[1].unit, labels[1]);
+  label(bare_name(history, x), unit[0].unit, labels[0]);
+  label(wanted->y.count == 1 ? bare_name(history, y) : "", unit[1].unit, labels[1]);
   if (set->curves == 1)
     set->curve[0].title = NULL;
   return CDEM_OK;
@@ -235,8 +241,8 @@ static cdem_status draw_energies(const char *folder, const cdem_table *history, 
 
 typedef struct {
   cdem_map map;
-  bool flat, cracks, drawn;
-  int64_t failed; /* lines of failed faces */
+  bool flat, cracks, far, drawn; /* far: the body, or a part of it, has moved */
+  int64_t failed;                /* lines of failed faces */
   char label[80];
 } picture;
 
@@ -250,9 +256,10 @@ static bool has_field(const cdem_frame *frame, const char *name) {
   return false;
 }
 
-/* Cracks show best on displacements; an unbroken body by its largest principal stress. */
+/* Cracks and motion show best by displacements; a body in its place by its largest principal
+ * stress. */
 static cdem_status take_body(picture *p, const cdem_frame *frame, cdem_fault *fault) {
-  bool moved = p->cracks || !has_field(frame, "stress");
+  bool moved = p->cracks || p->far || !has_field(frame, "stress");
   CDEM_TRY(cdem_map_from_frame(frame, moved ? "displacement" : "stress", moved ? -1 : -2,
                                p->flat ? view_flat : view_solid, p->flat ? up_flat : up_solid, 0.0,
                                &p->map, fault));
@@ -293,9 +300,28 @@ static cdem_status take_frame(void *context, const cdem_frame *frame, cdem_fault
              : add_state(p, frame, CDEM_INTERFACE_SOFTENING, "softening", "#999999", fault);
 }
 
+/* Has anything moved by more than a hundredth of the size of all? Strains alone do not do that. */
+static bool has_moved(const cdem_run_setup *setup) {
+  const cdem_solver *solver = &setup->solver;
+  const double *xyz = setup->blocks.mesh.xyz;
+  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+  double largest = 0.0, size = 0.0;
+  for (int64_t n = 0; n < solver->nodes; n++)
+    for (int k = 0; k < setup->model.dimension; k++) {
+      low[k] = fmin(low[k], xyz[3 * n + k]);
+      high[k] = fmax(high[k], xyz[3 * n + k]);
+      largest = fmax(largest, fabs(solver->u[n * solver->dofs + k]));
+    }
+  for (int k = 0; k < setup->model.dimension; k++)
+    size = fmax(size, high[k] - low[k]);
+  return largest > 0.01 * size;
+}
+
 static cdem_status draw_pattern(cdem_run_output *output, const char *folder, cdem_fault *fault) {
   const cdem_run_setup *setup = output->setup;
-  picture p = {.flat = setup->model.dimension == 2, .cracks = setup->has_interfaces};
+  picture p = {.flat = setup->model.dimension == 2,
+               .cracks = setup->has_interfaces,
+               .far = has_moved(setup)};
   const cdem_frame_sink sink = {.context = &p, .frame = take_frame};
   char title[80];
   cdem_status status = cdem_solver_frames(&setup->solver, 0, &sink, fault);
@@ -304,8 +330,8 @@ static cdem_status draw_pattern(cdem_run_output *output, const char *folder, cde
     snprintf(title, sizeof title, "t = %.4g %s", time.factor * setup->solver.time, time.unit);
     bool steps = cdem_run_values(setup)->analysis == CDEM_ANALYSIS_DYNAMIC;
     p.map.title = steps ? title : "";
-    p.map.x_label = p.flat ? "x [m]" : "";
-    p.map.y_label = p.flat ? "y [m]" : "";
+    p.map.x_label = p.flat ? "x [m]" : NULL;
+    p.map.y_label = p.flat ? "y [m]" : NULL;
     p.map.outlines = setup->model.cells <= 20000;
     status = cdem_write_map(folder, "pattern", &p.map, fault);
   }

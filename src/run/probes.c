@@ -101,21 +101,22 @@ static double von_mises(const double s[6]) {
   return sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * shear);
 }
 
-/* Sum (force) or mean over the nodes, by degree of freedom. The force that holds or pushes a node
- * is what balances the forces inside: external - (all forces). */
+/* Sum (force) or mean over the nodes, by degree of freedom. */
 static void node_vector(const cdem_run_setup *setup, const cdem_run_history *history,
                         const cdem_run_probe *probe, int quantity, double vector[3]) {
   const cdem_solver *solver = &setup->solver;
   int dofs = solver->dofs;
   memset(vector, 0, 3 * sizeof *vector);
+  if (quantity == FORCE) {
+    cdem_solver_held(solver, probe->nodes, probe->node, vector);
+    return;
+  }
   for (int32_t i = 0; i < probe->nodes; i++)
     for (int k = 0; k < dofs; k++) {
       int64_t at = (int64_t)probe->node[i] * dofs + k;
-      vector[k] += quantity == DISPLACEMENT ? solver->u[at]
-                   : quantity == VELOCITY   ? history->velocity[at]
-                                            : solver->external[at] - solver->force[at];
+      vector[k] += quantity == DISPLACEMENT ? solver->u[at] : history->velocity[at];
     }
-  for (int k = 0; k < dofs && quantity != FORCE; k++)
+  for (int k = 0; k < dofs; k++)
     vector[k] /= probe->nodes;
 }
 

@@ -79,20 +79,25 @@ static cdem_status clear_folder(const cdem_run_options *options, cdem_fault *fau
   return CDEM_OK;
 }
 
+static cdem_status has_checkpoint(const cdem_run_options *options, cdem_fault *fault) {
+  CDEM_REQUIRE(is_there(options->folder, "checkpoint.h5"), fault, CDEM_INPUT,
+               "there is no run to continue in '%s': it has no checkpoint.h5", options->folder);
+  return CDEM_OK;
+}
+
 /* Asked before the lock is taken, so that a folder of somebody else's stays as it is. */
 static cdem_status check_folder(const cdem_run_options *options, cdem_fault *fault) {
   CDEM_REQUIRE(access(options->folder, F_OK) == 0, fault, CDEM_INPUT,
                "there is no folder '%s'; name the folder of the run that is to be continued",
                options->folder);
-  CDEM_REQUIRE(is_there(options->folder, "checkpoint.h5"), fault, CDEM_INPUT,
-               "there is no run to continue in '%s': it has no checkpoint.h5", options->folder);
-  return CDEM_OK;
+  return is_there(options->folder, ".lock") ? CDEM_OK : has_checkpoint(options, fault);
 }
 
 /* The state of a broken run; CDEM_INPUT when there is nothing to continue. */
 static cdem_status read_checkpoint(const cdem_run_options *options, cdem_state *state,
                                    cdem_fault *fault) {
   char path[4096];
+  CDEM_TRY(has_checkpoint(options, fault));
   CDEM_REQUIRE(!is_there(options->folder, "summary.json"), fault, CDEM_INPUT,
                "the run in '%s' has ended: summary.json is there; nothing to continue",
                options->folder);
@@ -159,6 +164,8 @@ static cdem_status run_new(const cdem_run_options *options, cdem_run_summary *su
   if (status == CDEM_OK)
     status = cdem_folder_lock_take(options->folder, &lock, fault);
   if (status == CDEM_OK)
+    status = cdem_clear_parts(options->folder, fault);
+  if (status == CDEM_OK)
     status = clear_folder(options, fault);
   if (status == CDEM_OK)
     status = write_case(&setup, fault);
@@ -179,6 +186,8 @@ static cdem_status run_on(const cdem_run_options *options, cdem_run_summary *sum
   cdem_status status = read_checkpoint(options, &checkpoint, fault);
   if (status == CDEM_OK)
     status = cdem_run_setup_init(options, &checkpoint, &setup, fault);
+  if (status == CDEM_OK)
+    status = cdem_clear_parts(options->folder, fault);
   if (status == CDEM_OK)
     status = cdem_solver_restore(&setup.solver, &checkpoint, fault);
   if (status == CDEM_OK)

@@ -33,17 +33,17 @@ typedef struct {
   const cdem_run_options *options;
   cdem_case cases;
   uint64_t case_sum, mesh_sum; /* FNV-1a of the case's text and of the mesh's arrays */
-  uint64_t kept_sum;           /* of the text in the folder, which names the mesh from the root on */
-  cdem_mesh mesh;              /* as read */
-  cdem_blocks blocks;          /* cut */
-  cdem_model model;            /* of blocks.mesh */
+  uint64_t kept_sum;  /* of the text in the folder, which names the mesh from the root on */
+  cdem_mesh mesh;     /* as read */
+  cdem_blocks blocks; /* cut */
+  cdem_model model;   /* of blocks.mesh */
   cdem_section section;
   double *density;         /* [materials] kg/m^3 */
   double *micro_inertia;   /* [materials] m^2 */
   cdem_run_moduli *moduli; /* [materials] */
   int32_t *model_of;       /* [blocks.mesh.cells] index into the model, -1 */
   double *volume;          /* [model.cells] m^3 */
-  int threads; /* as asked, or what the size of the body is worth */
+  int threads;             /* as asked, or what the size of the body is worth */
   cdem_body body;
   cdem_interfaces interfaces;
   cdem_contact contact;

@@ -110,7 +110,8 @@ static void defaults(void **state) {
   assert_int_equal(v->plane, CDEM_PLANE_STRAIN);
   assert_true(v->thickness == 1.0 && v->safety == 0.8 && v->tolerance == 1e-5);
   assert_true(v->most_steps == 1000000 && v->mass_damping == 0.0 && v->local_damping == 0.0);
-  assert_true(isnan(v->step) && isnan(v->history_every) && isnan(v->stop_below));
+  assert_true(isnan(v->step) && isnan(v->checkpoint_every) && isnan(v->stop_below));
+  assert_true(v->history_every == v->end / 400 && v->frame_every == v->end / 20);
   assert_string_equal(v->mesh.file, "rock.geo");
   assert_true(v->mesh.shape == 0 && v->mesh.unit == 1.0 && v->mesh.seed == 1);
   assert_false(v->contact.active);

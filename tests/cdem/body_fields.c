@@ -110,6 +110,65 @@ static void uniform_strain_is_known(void **state) {
   }
 }
 
+/* Every third cell gets a material of its own, softer by half, and the body is built anew. */
+static void mix_materials(const cdem_element *element, const recipe *how, specimen *s) {
+  cdem_fault fault = {0};
+  int32_t chosen[64], count = 0;
+  for (int32_t i = 0; i < s->model.cells && count < 64; i += 3)
+    chosen[count++] = s->model.cell[i];
+  const char *const soft[] = {"soft"};
+  const int second[] = {1};
+  cdem_material material[2] = {rock(element), rock(element)};
+  double density[2] = {2700.0, 2700.0};
+  material[1].parameter[0] *= 0.5;
+  cdem_body_release(&s->body);
+  cdem_model_release(&s->model);
+  check_ok(cdem_mesh_add_group(&s->mesh, "soft", cdem_element_dimension(element), count, chosen,
+                               &fault));
+  cdem_model_options options = {.mesh = &s->mesh,
+                                .materials = 2,
+                                .material = material,
+                                .assignments = 1,
+                                .assigned_group = soft,
+                                .assigned_material = second,
+                                .section = {how->plane, 0.7}};
+  check_ok(cdem_model_init(&options, &s->model, &fault));
+  cdem_body_options body = {
+      .density = density, .linear = how->linear, .separate = how->separate, .threads = 2};
+  check_ok(cdem_body_init(&s->model, &body, &s->body, &fault));
+}
+
+/* The quick stress is that of the fields: shared and own batches, small and large motions, two
+ * materials side by side in a batch. */
+static void quick_stress_is_the_same(void **state) {
+  (void)state;
+  EACH_ELEMENT(element) for (int kind = 0; kind < 8; kind++) {
+    recipe how = {.count = 2,
+                  .distortion = kind & 1 ? 0.2 : 0.0,
+                  .linear = kind & 2,
+                  .separate = kind & 1,
+                  .plane = kind & 4 ? CDEM_PLANE_STRESS : CDEM_PLANE_STRAIN};
+    specimen s;
+    specimen_make(element, &how, &s);
+    if (s.model.dimension == 2 || kind < 4) {
+      mix_materials(element, &how, &s);
+      int64_t size = 6 * (int64_t)s.model.cells;
+      double *v = new_vector(s.size), *u = new_vector(s.size), *quick = new_vector(size);
+      double *slow = new_vector(size);
+      const double shift[3] = {0.3, -0.2, 0.1};
+      shake(&s, 0.02, 5, v);
+      turn_all(&s, v, how.linear ? 0.0 : 2.5, shift, u);
+      cdem_body_fields fields = {.stress = slow};
+      cdem_body_cell_fields(&s.body, u, &fields);
+      cdem_body_cell_stress(&s.body, u, quick);
+      check_below(difference(quick, slow, size), 1e-12 * 40e9); /* rounding of E times places */
+      assert_true(largest(slow, size) > 1e6);
+      free(v), free(u), free(quick), free(slow);
+    }
+    specimen_release(&s);
+  }
+}
+
 /* The force field of a class: two nodes of a bar-like triangle against the springs themselves. For
  * a motion of one node by d the pairs at it carry |S d| each. */
 static void pair_forces_are_those_of_springs(void **state) {
@@ -243,6 +302,7 @@ static void row_sums_bound_the_network(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(uniform_strain_is_known),
+      cmocka_unit_test(quick_stress_is_the_same),
       cmocka_unit_test(pair_forces_are_those_of_springs),
       cmocka_unit_test(frequency_is_bounded),
       cmocka_unit_test(frequency_says_where),

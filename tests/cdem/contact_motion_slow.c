@@ -1,5 +1,4 @@
-/* Contact in motion: energy, friction, restitution, speed limits, and that nothing is missed or
- * depends on threads or on an interruption. */
+/* Contact in motion: energy, friction, restitution, speed limits, and that nothing is missed. */
 #include "cdem/contact_support.h"
 
 /* Leapfrog of a scene of rigid bodies that do not turn; body 0 is held. Velocities [bodies][3]. */
@@ -39,8 +38,9 @@ static double bounce(int dim, double damping, double *lost) {
   cdem_contact_totals t = scene_totals(&s);
   double v = velocity[1][dim - 1];
   assert_int_equal(t.contacts, 0);
-  /* the book: kinetic energy lost is what the dashpots took */
-  check_near(0.5 * s.body[1].mass * v * v + t.damping + t.friction, before, 1e-3, 0.0);
+  /* the book is exact: kinetic energy lost is what the dashpots and the last step took */
+  check_near(0.5 * s.body[1].mass * v * v + t.damping + t.friction, before, 1e-12, 0.0);
+  assert_true(t.damping >= 0.0 && t.friction >= 0.0);
   *lost = t.damping / before;
   scene_release(&s);
   return v;
@@ -51,7 +51,7 @@ static void bounces_keep_energy_or_lose_it_to_dashpots(void **state) {
   for (int dim = 2; dim <= 3; dim++) {
     double lost, last = 1.0 + 1e-3;
     check_near(bounce(dim, 0.0, &lost), 1.0, 5e-4, 0.0);
-    check_below(fabs(lost), 1e-12);
+    check_below(fabs(lost), 1e-3); /* the steps of first and last touch, (omega dt)^2 */
     for (double damping = 0.05; damping < 0.45; damping += 0.1) {
       double v = bounce(dim, damping, &lost);
       assert_true(v > 0.0 && v < last - 0.02 && lost > 0.0);
@@ -153,28 +153,6 @@ static void fast_boxes_do_not_pass(void **state) {
   assert_true(bounced > 10 && stopped > 10);
 }
 
-/* A heap of boxes in all places and sizes. */
-static void make_heap(scene *s, int boxes, int dim, int threads) {
-  static scene_box box[SCENE_BOXES];
-  cdem_random random = {3};
-  for (int b = 0; b < boxes; b++) {
-    box[b] = (scene_box){{1 + b % 2, 1 + b % 3, 1}, {0}, {0}, cdem_random_uniform(&random, 0, 6)};
-    for (int k = 0; k < 3; k++) {
-      box[b].size[k] = cdem_random_uniform(&random, 0.5, b % 17 == 0 ? 4.0 : 1.0);
-      box[b].origin[k] = cdem_random_uniform(&random, 0.0, 0.9 * pow(boxes, 1.0 / dim));
-    }
-  }
-  scene_make(s, dim, boxes, box);
-  cdem_contact_options o = {.threads = threads,
-                            .law = {.kn = 1e8, .kt = 5e7, .friction = 0.4, .damping = 0.1}};
-  scene_start_with(s, &o);
-}
-
-static int status_of_heap(scene *s, double dt) {
-  memset(s->force, 0, (size_t)s->blocks.mesh.nodes * (size_t)s->dofs * sizeof(double));
-  return cdem_contact_forces(&s->contact, s->u, s->v, dt, s->force, NULL);
-}
-
 /* The same from a list that is as good as all pairs: a skin as large as the heap. */
 static void no_pair_is_missed(void **state) {
   (void)state;
@@ -215,81 +193,6 @@ static void no_pair_is_missed(void **state) {
   }
 }
 
-static void shake(scene *s, cdem_random *random) {
-  for (int body = 0; body < s->bodies; body++) {
-    double by[3], v[3];
-    for (int k = 0; k < 3; k++) {
-      by[k] = cdem_random_uniform(random, -0.004, 0.004);
-      v[k] = by[k] / 1e-3;
-    }
-    scene_move(s, body, by);
-    scene_velocity(s, body, v);
-  }
-  status_of_heap(s, 1e-3);
-}
-
-static void threads_do_not_matter(void **state) {
-  (void)state;
-  scene one, many;
-  make_heap(&one, 60, 3, 1);
-  for (int threads = 2; threads <= 4; threads += 2) {
-    cdem_random r = {5}, q = {5};
-    make_heap(&many, 60, 3, threads);
-    scene_release(&one);
-    make_heap(&one, 60, 3, 1);
-    for (int step = 0; step < 20; step++) {
-      shake(&one, &r);
-      shake(&many, &q);
-      assert_memory_equal(one.force, many.force,
-                          (size_t)one.blocks.mesh.nodes * 3 * sizeof(double));
-    }
-    cdem_contact_totals a = scene_totals(&one), b = scene_totals(&many);
-    assert_true(a.contacts > 50 && a.friction == b.friction && a.damping == b.damping &&
-                a.stored == b.stored);
-    assert_true(cdem_contact_frequency2(&one.contact) == cdem_contact_frequency2(&many.contact));
-    scene_release(&many);
-  }
-  scene_release(&one);
-}
-
-static void an_interruption_does_not_matter(void **state) {
-  (void)state;
-  for (int dim = 2; dim <= 3; dim++) {
-    scene a, b;
-    cdem_fault fault = {0};
-    cdem_state saved = {0};
-    cdem_random r = {5};
-    make_heap(&a, 60, dim, 1);
-    make_heap(&b, 60, dim, 1);
-    for (int step = 0; step < 13; step++)
-      shake(&a, &r);
-    check_ok(cdem_contact_save(&a.contact, &saved, &fault));
-    check_ok(cdem_contact_restore(&b.contact, &saved, &fault));
-    size_t bytes = (size_t)a.blocks.mesh.nodes * (size_t)dim * sizeof(double);
-    memcpy(b.u, a.u, bytes);
-    memcpy(b.v, a.v, bytes);
-    assert_true(cdem_contact_frequency2(&a.contact) == cdem_contact_frequency2(&b.contact));
-    cdem_random q = r;
-    for (int step = 0; step < 20; step++) {
-      shake(&a, &r);
-      shake(&b, &q);
-      assert_memory_equal(a.force, b.force, bytes);
-      cdem_contact_totals x = scene_totals(&a), y = scene_totals(&b);
-      assert_memory_equal(&x, &y, sizeof x);
-      assert_int_equal(a.contact.version, b.contact.version);
-    }
-    /* a state of another case */
-    scene other;
-    make_heap(&other, 10, dim, 1);
-    check_fails(cdem_contact_restore(&other.contact, &saved, &fault), CDEM_INPUT,
-                "does not belong to this case");
-    scene_release(&other);
-    cdem_state_release(&saved);
-    scene_release(&a);
-    scene_release(&b);
-  }
-}
-
 /* Twice the boxes, twice the work of a rebuild: counted, not timed. */
 static void rebuilds_are_linear(void **state) {
   (void)state;
@@ -312,8 +215,6 @@ int main(void) {
       cmocka_unit_test(slopes_hold_and_let_slide),
       cmocka_unit_test(fast_boxes_do_not_pass),
       cmocka_unit_test(no_pair_is_missed),
-      cmocka_unit_test(threads_do_not_matter),
-      cmocka_unit_test(an_interruption_does_not_matter),
       cmocka_unit_test(rebuilds_are_linear),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

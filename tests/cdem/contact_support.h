@@ -245,4 +245,26 @@ static inline cdem_contact_totals scene_totals(const scene *s) {
   return totals;
 }
 
+/* A heap of boxes in all places and sizes. */
+static inline void make_heap(scene *s, int boxes, int dim, int threads) {
+  static scene_box box[SCENE_BOXES];
+  cdem_random random = {3};
+  for (int b = 0; b < boxes; b++) {
+    box[b] = (scene_box){{1 + b % 2, 1 + b % 3, 1}, {0}, {0}, cdem_random_uniform(&random, 0, 6)};
+    for (int k = 0; k < 3; k++) {
+      box[b].size[k] = cdem_random_uniform(&random, 0.5, b % 17 == 0 ? 4.0 : 1.0);
+      box[b].origin[k] = cdem_random_uniform(&random, 0.0, 0.9 * pow(boxes, 1.0 / dim));
+    }
+  }
+  scene_make(s, dim, boxes, box);
+  cdem_contact_options o = {.threads = threads,
+                            .law = {.kn = 1e8, .kt = 5e7, .friction = 0.4, .damping = 0.1}};
+  scene_start_with(s, &o);
+}
+
+static inline int status_of_heap(scene *s, double dt) {
+  memset(s->force, 0, (size_t)s->blocks.mesh.nodes * (size_t)s->dofs * sizeof(double));
+  return cdem_contact_forces(&s->contact, s->u, s->v, dt, s->force, NULL);
+}
+
 #endif

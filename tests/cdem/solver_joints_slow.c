@@ -40,7 +40,9 @@ static void breaking_keeps_momentum_and_book(void **state) {
     }
     cdem_energy_book book;
     cdem_solver_energies(&j.r.solver, &book);
-    check_below(fabs(book.error), 2e-2 * book.exchange);
+    /* Contact adds nothing (test cdem.contact_energy); broken springs that close within a step of
+     * 0.8 of the limit cost a little, either way. */
+    check_below(fabs(book.error), 1e-2 * book.exchange);
     release_jointed(&j);
     free(velocity);
   }

@@ -105,12 +105,39 @@ static void texts_are_read_whole(void **state) {
   check_fails(cdem_read_text(in_scratch("binary"), &text, &fault), CDEM_INPUT, "byte 3 is zero");
 }
 
+/* Of a process that is gone (numbers end at 2^22), at most one folder down; of one that lives, and
+ * what only looks like it, stays. */
+static void what_the_killed_left_is_removed(void **state) {
+  (void)state;
+  static const struct {
+    const char *name;
+    bool stays;
+  } file[] = {
+      {"left/.history.csv.part-9999999", false}, {"left/body/.body-000001.vtu.part-9999999", false},
+      {"left/.history.csv.part-1", true},        {"left/.history.csv.part-", true},
+      {"left/.history.csv.part-9999999x", true}, {"left/history.csv.part-9999999", true},
+      {"left/body/deeper/.a.part-9999999", true}};
+  cdem_fault fault = {0};
+  check_ok(cdem_make_folder(in_scratch("left/body/deeper"), &fault));
+  for (size_t i = 0; i < sizeof file / sizeof file[0]; i++) {
+    FILE *made = fopen(in_scratch(file[i].name), "w");
+    assert_non_null(made);
+    fclose(made);
+  }
+  check_ok(cdem_clear_parts(in_scratch("left"), &fault));
+  for (size_t i = 0; i < sizeof file / sizeof file[0]; i++)
+    if ((access(in_scratch(file[i].name), F_OK) == 0) != file[i].stays)
+      fail_msg("%s %s", file[i].name, file[i].stays ? "is gone" : "is there");
+  check_ok(cdem_clear_parts(in_scratch("nowhere"), &fault));
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(folders_are_made_with_their_parents),
       cmocka_unit_test(one_run_a_folder),
       cmocka_unit_test(no_lock_in_no_folder),
       cmocka_unit_test(texts_are_read_whole),
+      cmocka_unit_test(what_the_killed_left_is_removed),
   };
   return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }
