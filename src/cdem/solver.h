@@ -17,9 +17,9 @@
  * of a force over a step (F_n + F_{n+1})/2 . (u_{n+1} - u_n); with these the book closes to
  * rounding but for the curvature of nonlinear energies within a step.
  *
- * The step is safety * 2/omega, omega^2 the sum of the bounds of body, interfaces, contacts and
- * plates; it is looked at again whenever their versions change, and never grows by less than a
- * quarter.
+ * The step is safety * 2/omega, omega^2 the sum of the bounds of body, interfaces, four times
+ * contact and plates; it is looked at again whenever their versions change, and never grows by less
+ * than a quarter.
  *
  * All pointers of the options are borrowed and must outlive the solver.
  */

@@ -70,7 +70,6 @@ static cdem_status run_bars(cdem_world *world, int what, double *value, cdem_fau
   const cdem_world_options options = {
       .young = 30e9, .poisson = 0.0, .density = 2700.0, .contact = &contact};
   const double speed = 1.0, wave = sqrt(30e9 / 2700.0), gap = 1e-5;
-  world->motion.safety = 0.4; /* one-sided springs: see section 5 */
   double linear[2][3], angular[3];
   CDEM_TRY(cdem_world_add_box(world, "striker", (int32_t[]){40, 2, 0},
                               (double[]){-1.0 - gap, 0.0, 0.0}, (double[]){-gap, 0.1, 0.0}, fault));
