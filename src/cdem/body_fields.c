@@ -202,15 +202,8 @@ void cdem_body_cell_fields(const cdem_body *body, const double *u, const cdem_bo
 static void corner_gradients(const cdem_body_element *element, const double (*dn)[3],
                              double (*gradient)[3]) {
   const cdem_body_kind *kind = element->record.kind;
-  double j[9] = {0}, inverse[9];
-  if (kind->dimension == 2)
-    j[8] = 1.0;
-  for (int a = 0; a < kind->nodes; a++)
-    for (int i = 0; i < kind->dimension; i++)
-      for (int k = 0; k < kind->dimension; k++)
-        j[3 * i + k] += element->x[a][i] * dn[a][k];
-  double size = cdem_frobenius(j, 9);
-  bool good = cdem_inverse3(j, inverse) > 1e-9 * size * size * size;
+  double inverse[9];
+  bool good = cdem_body_jacobian(kind, element->x, dn, inverse) > 1e-9;
   for (int a = 0; a < kind->nodes; a++)
     for (int i = 0; i < 3; i++) {
       gradient[a][i] = good ? 0.0 : element->gradient[a][i];

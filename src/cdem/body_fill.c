@@ -8,14 +8,8 @@
 
 /* Inverse Jacobian at the centre: out[dimension k + c] = dxi_k/dX_c. */
 static void inverse_jacobian(const cdem_body_kind *kind, const double (*xyz)[3], double *out) {
-  double j[9] = {0}, inverse[9];
-  if (kind->dimension == 2)
-    j[8] = 1.0;
-  for (int a = 0; a < kind->nodes; a++)
-    for (int i = 0; i < kind->dimension; i++)
-      for (int k = 0; k < kind->dimension; k++)
-        j[3 * i + k] += xyz[a][i] * kind->derivative[a][k];
-  cdem_inverse3(j, inverse);
+  double inverse[9];
+  cdem_body_jacobian(kind, xyz, kind->derivative, inverse);
   for (int k = 0; k < kind->dimension; k++)
     for (int c = 0; c < kind->dimension; c++)
       out[kind->dimension * k + c] = inverse[3 * k + c];

@@ -41,15 +41,9 @@ static void rotate(const double h[9], double e[9]) {
 /* Node places and shape function gradients at the centre, from the mesh. */
 static void geometry(const cdem_body *body, int32_t cell, cdem_body_element *element) {
   const cdem_body_kind *kind = element->record.kind;
-  double xyz[CDEM_SHAPE_MAX_NODES][3], j[9] = {0}, inverse[9];
+  double xyz[CDEM_SHAPE_MAX_NODES][3], inverse[9];
   cdem_model_coordinates(body->model, cell, xyz);
-  if (kind->dimension == 2)
-    j[8] = 1.0;
-  for (int a = 0; a < kind->nodes; a++)
-    for (int i = 0; i < kind->dimension; i++)
-      for (int k = 0; k < kind->dimension; k++)
-        j[3 * i + k] += xyz[a][i] * kind->derivative[a][k];
-  cdem_inverse3(j, inverse);
+  cdem_body_jacobian(kind, (const double(*)[3])xyz, kind->derivative, inverse);
   for (int a = 0; a < kind->nodes; a++)
     for (int i = 0; i < 3; i++) {
       element->x[a][i] = i < kind->dimension ? xyz[a][i] : 0.0;

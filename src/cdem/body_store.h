@@ -14,6 +14,7 @@
 #ifndef CDEM_CDEM_BODY_STORE_H
 #define CDEM_CDEM_BODY_STORE_H
 
+#include "base/mat3.h"
 #include "cdem/body.h"
 
 enum { CDEM_BODY_TILE = 512, CDEM_BODY_NODES = 8, CDEM_BODY_PAIRS = 28 };
@@ -28,6 +29,22 @@ typedef struct {
   double shape[CDEM_BODY_NODES];         /* shape functions there */
   uint8_t class_[CDEM_BODY_PAIRS];       /* 0 .. CDEM_CLASSES - 1 */
 } cdem_body_kind;
+
+/* Inverse Jacobian inverse[3 k + c] = dxi_k/dX_c from derivatives dn by xi. Returns the determinant
+ * over the cube of the Jacobian's size, which does not depend on the unit of length: in 2-D the
+ * third direction is given that size. */
+static inline double cdem_body_jacobian(const cdem_body_kind *kind, const double (*xyz)[3],
+                                        const double (*dn)[3], double inverse[9]) {
+  double j[9] = {0};
+  for (int a = 0; a < kind->nodes; a++)
+    for (int i = 0; i < kind->dimension; i++)
+      for (int k = 0; k < kind->dimension; k++)
+        j[3 * i + k] += xyz[a][i] * dn[a][k];
+  double size = cdem_frobenius(j, 9);
+  if (kind->dimension == 2)
+    j[8] = size;
+  return cdem_inverse3(j, inverse) / (size * size * size);
+}
 
 typedef struct {
   int64_t record; /* offset into the data, in doubles */

@@ -110,6 +110,36 @@ static void uniform_strain_is_known(void **state) {
   }
 }
 
+/* Stress at nodes does not depend on the unit of length: the same field on a mesh of microns. */
+static void node_stress_at_any_size(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  const double scale[2] = {1.0, 1e-6};
+  double stress[2][9 * 6];
+  for (int k = 0; k < 2; k++) {
+    const recipe how = {.count = 2, .distortion = 0.2, .linear = true};
+    specimen s = {.density = 2500.0};
+    check_ok(cdem_mesh_grid(&(cdem_mesh_grid_options){.shape = CDEM_SHAPE_QUAD4,
+                                                      .count = {2, 2, 0},
+                                                      .size = {scale[k], scale[k], 0.0},
+                                                      .distortion = how.distortion,
+                                                      .seed = 5},
+                            &s.mesh, &fault));
+    s.material = cdem_material_isotropic(40e9, 0.23);
+    specimen_build(&how, &s);
+    double u[18];
+    for (int n = 0; n < 9; n++) { /* a strain that varies within an element */
+      const double *x = s.mesh.xyz + 3 * n;
+      u[2 * n] = 1e-3 * x[0] * x[1] / scale[k];
+      u[2 * n + 1] = 1e-3 * x[1] * x[1] / scale[k];
+    }
+    cdem_body_node_stress(&s.body, u, stress[k]);
+    specimen_release(&s);
+  }
+  for (int i = 0; i < 9 * 6; i++)
+    check_near(stress[1][i], stress[0][i], 0.0, 1e-10 * 40e6);
+}
+
 /* Every third cell gets a material of its own, softer by half, and the body is built anew. */
 static void mix_materials(const cdem_element *element, const recipe *how, specimen *s) {
   cdem_fault fault = {0};
@@ -302,6 +332,7 @@ static void row_sums_bound_the_network(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(uniform_strain_is_known),
+      cmocka_unit_test(node_stress_at_any_size),
       cmocka_unit_test(quick_stress_is_the_same),
       cmocka_unit_test(pair_forces_are_those_of_springs),
       cmocka_unit_test(frequency_is_bounded),
