@@ -33,14 +33,6 @@ typedef struct {
 
 enum { LARGE = 1000 }; /* grid cells of one edge */
 
-static uint64_t hash_cell(const int64_t c[3]) {
-  uint64_t h = (uint64_t)c[0] * 0x9e3779b97f4a7c15u ^ (uint64_t)c[1] * 0xc2b2ae3d27d4eb4fu ^
-               (uint64_t)c[2] * 0x165667b19e3779f9u;
-  h ^= h >> 32;
-  h *= 0xd6e8feb86659fd93u;
-  return h ^ h >> 32;
-}
-
 static void edge_box(const cdem_contact *contact, const cdem_contact_edge *e, box *b) {
   const cdem_contact_store *s = contact->store;
   double out = 0.5 * (s->skin + s->sweep) + 0.5 * e->depth;
@@ -109,7 +101,7 @@ static void enter(const cdem_contact_store *s, edge_grid *g, bool write) {
           if (write) {
             g->edge[g->entries] = e;
             memcpy(g->cell[g->entries], c, sizeof c);
-            g->hash[g->entries] = hash_cell(c);
+            g->hash[g->entries] = cdem_contact_hash(c);
           }
   }
 }

@@ -22,14 +22,6 @@ typedef struct {
   int64_t *visit; /* [facets] */
 } grid;
 
-static uint64_t hash_cell(const int64_t c[3]) {
-  uint64_t h = (uint64_t)c[0] * 0x9e3779b97f4a7c15u ^ (uint64_t)c[1] * 0xc2b2ae3d27d4eb4fu ^
-               (uint64_t)c[2] * 0x165667b19e3779f9u;
-  h ^= h >> 32;
-  h *= 0xd6e8feb86659fd93u;
-  return h ^ h >> 32;
-}
-
 static int64_t cell_of(double x, double low, double side) {
   double c = floor((x - low) / side);
   return (int64_t)fmax(-4e18, fmin(4e18, c));
@@ -54,7 +46,7 @@ static cdem_status fill_grid(const cdem_contact *contact, grid *g, cdem_fault *f
     const double *x = s->x + 3 * (int64_t)s->surface_node[n];
     for (int i = 0; i < 3; i++)
       g->cell[n][i] = cell_of(x[i], g->low[i], g->side);
-    g->hash[n] = hash_cell(g->cell[n]);
+    g->hash[n] = cdem_contact_hash(g->cell[n]);
   }
   cdem_contact_buckets(s->surface_nodes, g->hash, g->buckets, g->start, g->order);
   return CDEM_OK;
@@ -134,7 +126,7 @@ static void take(const cdem_contact *contact, int32_t f, int32_t n, const double
 
 static void look_in_cell(const cdem_contact *contact, int32_t f, const int64_t c[3],
                          const double corner[4][3], double skin, grid *g, int64_t *count) {
-  int64_t bucket = (int64_t)(hash_cell(c) & (uint64_t)(g->buckets - 1));
+  int64_t bucket = (int64_t)(cdem_contact_hash(c) & (uint64_t)(g->buckets - 1));
   g->visit[f] += 1 + g->start[bucket + 1] - g->start[bucket];
   for (int64_t k = g->start[bucket]; k < g->start[bucket + 1]; k++) {
     int64_t n = g->order[k];

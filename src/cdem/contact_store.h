@@ -60,6 +60,15 @@ typedef struct {
   cdem_touch touch;
 } cdem_carried;
 
+/* Of a cell of a broad phase. */
+static inline uint64_t cdem_contact_hash(const int64_t c[3]) {
+  uint64_t h = (uint64_t)c[0] * 0x9e3779b97f4a7c15u ^ (uint64_t)c[1] * 0xc2b2ae3d27d4eb4fu ^
+               (uint64_t)c[2] * 0x165667b19e3779f9u;
+  h ^= h >> 32;
+  h *= 0xd6e8feb86659fd93u;
+  return h ^ h >> 32;
+}
+
 struct cdem_contact_store {
   int dim, dofs, threads, colours;
   double thickness, skin;

@@ -51,3 +51,22 @@ hid_t cdem_hdf5_dataset_properties(void) {
     H5Pset_obj_track_times(create, 0);
   return create;
 }
+
+bool cdem_hdf5_put_dataset(hid_t place, const char *name, hid_t type, int rank, const hsize_t *size,
+                           hid_t link, hid_t create, const void *data) {
+  hid_t space = H5Screate_simple(rank, size, NULL);
+  hid_t set = space >= 0 && create >= 0
+                  ? H5Dcreate2(place, name, type, space, link, create, H5P_DEFAULT)
+                  : (hid_t)-1;
+  bool empty = false;
+  for (int r = 0; r < rank; r++)
+    empty = empty || size[r] == 0;
+  bool good = set >= 0 && (empty || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0);
+  if (set >= 0)
+    H5Dclose(set);
+  if (create >= 0)
+    H5Pclose(create);
+  if (space >= 0)
+    H5Sclose(space);
+  return good;
+}

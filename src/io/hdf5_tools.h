@@ -23,4 +23,9 @@ bool cdem_hdf5_put_scalar(hid_t object, const char *name, hid_t type, const void
  * bytes; negative on failure. */
 hid_t cdem_hdf5_dataset_properties(void);
 
+/* A whole dataset of `rank` dimensions size [rank] under `place`; `link` and `create` are property
+ * lists (link may be H5P_DEFAULT), `create` is closed. An empty one holds no data. */
+bool cdem_hdf5_put_dataset(hid_t place, const char *name, hid_t type, int rank, const hsize_t *size,
+                           hid_t link, hid_t create, const void *data);
+
 #endif

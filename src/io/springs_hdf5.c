@@ -348,18 +348,8 @@ static cdem_status put_settings(h5_writer *h5, cdem_fault *fault) {
 
 static bool put_array(hid_t group, const char *name, hid_t type, int rank, const hsize_t *size,
                       const void *data) {
-  hid_t space = H5Screate_simple(rank, size, NULL), create = cdem_hdf5_dataset_properties();
-  hid_t set = space >= 0 && create >= 0
-                  ? H5Dcreate2(group, name, type, space, H5P_DEFAULT, create, H5P_DEFAULT)
-                  : (hid_t)-1;
-  bool good = set >= 0 && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
-  if (set >= 0)
-    H5Dclose(set);
-  if (create >= 0)
-    H5Pclose(create);
-  if (space >= 0)
-    H5Sclose(space);
-  return good;
+  return cdem_hdf5_put_dataset(group, name, type, rank, size, H5P_DEFAULT,
+                               cdem_hdf5_dataset_properties(), data);
 }
 
 static cdem_status put_nodes(h5_writer *h5, cdem_fault *fault) {

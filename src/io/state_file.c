@@ -121,19 +121,8 @@ static hid_t array_properties(const cdem_array *array) {
 static bool put_array(const state_writer *writer, const cdem_array *array) {
   hsize_t count = (hsize_t)array->count;
   hid_t type = native_type(array->type);
-  hid_t space = H5Screate_simple(1, &count, NULL), create = array_properties(array);
-  hid_t set = space >= 0 && create >= 0 ? H5Dcreate2(writer->file, array->name, type, space,
-                                                     writer->link, create, H5P_DEFAULT)
-                                        : (hid_t)-1;
-  bool good = set >= 0 &&
-              (count == 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, array->data) >= 0);
-  if (set >= 0)
-    H5Dclose(set);
-  if (create >= 0)
-    H5Pclose(create);
-  if (space >= 0)
-    H5Sclose(space);
-  return good;
+  return cdem_hdf5_put_dataset(writer->file, array->name, type, 1, &count, writer->link,
+                               array_properties(array), array->data);
 }
 
 static cdem_status put_state(state_writer *writer, const cdem_state *state, cdem_fault *fault) {

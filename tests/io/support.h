@@ -4,7 +4,7 @@
 #define CDEM_TESTS_IO_SUPPORT_H
 
 #include "io/io.h"
-#include "support/test.h"
+#include "support/scratch.h"
 
 #include <dirent.h>
 #include <locale.h>
@@ -13,31 +13,6 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-static char scratch[64];
-
-/* Group setup and teardown of every test program here. */
-static int scratch_make(void **state) {
-  (void)state;
-  snprintf(scratch, sizeof scratch, "/tmp/cdem-test-XXXXXX");
-  return mkdtemp(scratch) == NULL;
-}
-
-static int scratch_remove(void **state) {
-  (void)state;
-  char command[128];
-  snprintf(command, sizeof command, "rm -rf '%s'", scratch);
-  return system(command);
-}
-
-/* scratch/NAME; four at a time. */
-static inline const char *in_scratch(const char *name) {
-  static char path[4][512];
-  static int next;
-  next = (next + 1) % 4;
-  snprintf(path[next], sizeof path[next], "%s/%s", scratch, name);
-  return path[next];
-}
 
 /* A whole file with a zero behind it; NULL when there is none. */
 static inline char *read_whole(const char *path, size_t *bytes) {

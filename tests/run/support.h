@@ -4,34 +4,10 @@
 
 #include "io/run_files.h"
 #include "run/run.h"
-#include "support/test.h"
+#include "support/scratch.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
-
-static char scratch[64];
-
-static int scratch_make(void **state) {
-  (void)state;
-  snprintf(scratch, sizeof scratch, "/tmp/cdem-run-XXXXXX");
-  return mkdtemp(scratch) == NULL;
-}
-
-static int scratch_remove(void **state) {
-  (void)state;
-  char command[128];
-  snprintf(command, sizeof command, "rm -rf '%s'", scratch);
-  return system(command);
-}
-
-/* scratch/NAME; eight at a time. */
-static inline const char *in_scratch(const char *name) {
-  static char path[8][512];
-  static int next;
-  next = (next + 1) % 8;
-  snprintf(path[next], sizeof path[next], "%s/%s", scratch, name);
-  return path[next];
-}
 
 static inline bool is_there(const char *name) {
   struct stat facts;
