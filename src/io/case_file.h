@@ -14,12 +14,14 @@
 cdem_status cdem_read_case(const char *path, int overrides, const char *const *override,
                            cdem_case *read, cdem_fault *fault);
 
-/* Path of the case's mesh file, which is relative to the case; newly allocated, NULL: no memory. */
-char *cdem_case_mesh_path(const cdem_case *cases, cdem_fault *fault);
-/* Makes the kept text (cases->source) name that file from the root on, so that a copy of the case
- * can be run from any folder. The overrides are those the case was read with. */
-cdem_status cdem_case_settle_mesh(cdem_case *cases, int overrides, const char *const *override,
-                                  cdem_fault *fault);
+/* Path of a file that the case names, which is relative to the case; newly allocated, NULL: no
+ * memory. */
+char *cdem_case_file_path(const cdem_case *cases, const char *file, cdem_fault *fault);
+/* Makes the kept text (cases->source) name its files (mesh, grains, walls) from the root on, so
+ * that a copy of the case can be run from any folder. The overrides are those the case was read
+ * with. */
+cdem_status cdem_case_settle_files(cdem_case *cases, int overrides, const char *const *override,
+                                   cdem_fault *fault);
 
 /* Help on a section or key ("interfaces", "interfaces.tension"; "case" or NULL: the overview).
  * CDEM_USAGE with the nearest name when there is none. */

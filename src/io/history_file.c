@@ -179,24 +179,6 @@ void cdem_history_destroy(cdem_history_writer **writer) {
 
 /* ---- reading ---- */
 
-/* Takes one field out of the line, quotes off, in place; *at is behind its comma or line end. */
-static char *take_field(char **at, bool *last) {
-  char *from = *at, *to = from, *field = from;
-  bool quoted = false;
-  for (; *from != '\0' && (quoted || (*from != ',' && *from != '\n')); from++) {
-    if (*from == '"' && quoted && from[1] == '"')
-      *to++ = *from++;
-    else if (*from == '"')
-      quoted = !quoted;
-    else
-      *to++ = *from;
-  }
-  *last = *from != ',';
-  *at = *from != '\0' ? from + 1 : from;
-  *to = '\0';
-  return field;
-}
-
 /* "name [unit]" */
 static cdem_status add_column(cdem_table *table, char *title, cdem_fault *fault) {
   size_t length = strlen(title);
@@ -214,7 +196,7 @@ static cdem_status read_row(char **at, int64_t line, cdem_table *table, cdem_fau
     CDEM_REQUIRE(!last, fault, CDEM_INPUT,
                  "line %" PRId64 ": it has %d fields, but the header has %d", line, c,
                  table->columns);
-    char *field = take_field(at, &last), *end;
+    char *field = cdem_csv_take(at, &last), *end;
     double value = cdem_get_real(field, &end);
     CDEM_REQUIRE(*end == '\0' && (end > field || field[0] == '\0'), fault, CDEM_INPUT,
                  "line %" PRId64 ": '%.40s' is not a number", line, field);
@@ -231,7 +213,7 @@ static cdem_status read_lines(char *text, cdem_table *table, cdem_fault *fault) 
   CDEM_REQUIRE(line_end(text) != NULL, fault, CDEM_INPUT, "line 1: the header is missing");
   char *at = text;
   for (bool last = false; !last;)
-    CDEM_TRY(add_column(table, take_field(&at, &last), fault));
+    CDEM_TRY(add_column(table, cdem_csv_take(&at, &last), fault));
   /* A last line without an end is what a killed run was writing. */
   for (int64_t line = 2; line_end(at) != NULL; line++)
     CDEM_TRY(read_row(&at, line, table, fault));

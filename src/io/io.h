@@ -25,7 +25,8 @@ typedef struct {
 } cdem_warnings;
 
 /* Reads .msh (2.2 and 4.1, text and binary; 4.0 through gmsh), .geo .step .stp (gmsh meshes them in
- * their highest dimension) and .inp (Abaqus, CalculiX), by file ending. The mesh has passed
+ * their highest dimension), .stl (text and binary; through gmsh, equal corners become one node) and
+ * .inp (Abaqus, CalculiX), by file ending. The mesh has passed
  * cdem_mesh_check. CDEM_FILE: cannot be opened. CDEM_INPUT: cannot be understood. */
 cdem_status cdem_read_mesh(const char *path, cdem_mesh *mesh, const cdem_warnings *warnings,
                            cdem_fault *fault);

@@ -22,6 +22,7 @@
 #define BAR_GAP       14.0
 #define BAR_WIDTH     11.0
 #define BAR_TICS      40.0
+#define BAR_MINUS     7.0 /* where ticks have a sign */
 #define BAR_LABEL     20.0
 #define LEGEND_ROW    16.0
 #define LEGEND_SAMPLE 22.0
@@ -29,8 +30,12 @@
 #define LETTER_WIDTH  6.7
 #define OUTLINE       0.45 /* width, inside of a polygon */
 #define HALO          1.4  /* more width of the white below a line, points */
+#define CHORD         0.04 /* of a disc: how far its sides may be from the circle, pixels */
+#define RIM           0.6
+#define RIM_SHADE     0.6
+#define LEAST_RIMMED  2.6 /* mean radius of a set, pixels */
 
-enum { OUTLINE_COLOUR = 0x4d4d4d, MOST_CORNERS = 8 };
+enum { OUTLINE_COLOUR = 0x4d4d4d, MOST_CORNERS = 8, MOST_ROUND = 128 };
 enum { DIGITS = 6, PALETTE_STEPS = 128, LONGEST_LABEL = 256 };
 
 typedef struct {
@@ -52,9 +57,23 @@ static void widen(double value, double *low, double *high) {
   }
 }
 
+static void widen_marks(const cdem_map_marks *m, layout *l) {
+  for (int64_t i = 0; i < m->marks; i++)
+    for (int end = 0; end < (m->kind == CDEM_MAP_DISCS ? 1 : 2); end++) {
+      const double *xy = m->xy + 4 * i + 2 * end;
+      double around = m->kind == CDEM_MAP_DISCS ? m->size[i] : 0.5 * m->size[i];
+      for (int sign = -1; sign <= 1; sign += 2) {
+        widen(xy[0] + sign * around, &l->x_low, &l->x_high);
+        widen(xy[1] + sign * around, &l->y_low, &l->y_high);
+      }
+    }
+}
+
 static void find_extent(const cdem_map *map, layout *l) {
   l->x_low = l->y_low = INFINITY;
   l->x_high = l->y_high = -INFINITY;
+  for (int k = 0; k < map->mark_sets; k++)
+    widen_marks(&map->marks[k], l);
   int64_t corners = map->polygons > 0 ? map->start[map->polygons] : 0;
   for (int64_t i = 0; i < corners; i++) {
     widen(map->xy[2 * i], &l->x_low, &l->x_high);
@@ -81,6 +100,9 @@ static void find_values(const cdem_map *map, layout *l) {
   double low = INFINITY, high = -INFINITY;
   for (int64_t i = 0; i < map->polygons; i++)
     widen(map->value[i], &low, &high);
+  for (int k = 0; k < map->mark_sets; k++)
+    for (int64_t i = 0; i < map->marks[k].marks && map->marks[k].value != NULL; i++)
+      widen(map->marks[k].value[i], &low, &high);
   if (map->value_min != map->value_max) {
     low = map->value_min;
     high = map->value_max;
@@ -110,9 +132,9 @@ static double entry_width(const cdem_map_lines *lines) {
 }
 
 /* Equal scales in both directions: what the bodies do not fill of a slender page is left empty. */
-static void find_axes(layout *l) {
-  double w = l->x_high - l->x_low, h = l->y_high - l->y_low;
-  double scale = fmin(WIDEST / w, HIGHEST / h);
+static void find_axes(double page, layout *l) {
+  double w = l->x_high - l->x_low, h = l->y_high - l->y_low, size = page > 0.0 ? page : 1.0;
+  double scale = fmin(size * WIDEST / w, size * HIGHEST / h);
   l->across = fmax(NARROWEST, scale * w);
   l->up = fmax(NARROWEST, scale * h);
   double more_x = 0.5 * (l->across / scale - w), more_y = 0.5 * (l->up / scale - h);
@@ -125,7 +147,7 @@ static void find_axes(layout *l) {
 static void lay_out(const cdem_map *map, layout *l) {
   find_extent(map, l);
   find_values(map, l);
-  find_axes(l);
+  find_axes(map->page, l);
   l->axes = map->x_label != NULL;
   l->power = l->axes ? cdem_gnuplot_power(fmin(l->x_low, l->y_low), fmax(l->x_high, l->y_high)) : 0;
   l->bar = map->value_label != NULL;
@@ -140,10 +162,11 @@ static void lay_out(const cdem_map *map, layout *l) {
     }
     row += width;
   }
-  l->left = l->axes ? Y_AXIS : EDGE;
+  l->left = !l->axes ? EDGE : l->y_low < 0.0 ? Y_AXIS + BAR_MINUS : Y_AXIS;
   l->bottom = (l->axes ? X_AXIS : SCALE_BAR) + l->legend_rows * LEGEND_ROW;
   l->above = l->bar && LETTER_WIDTH * cdem_gnuplot_letters(map->value_label) > l->up;
-  double beside = BAR_GAP + BAR_WIDTH + BAR_TICS + (l->above ? 0.0 : BAR_LABEL);
+  double beside = BAR_GAP + BAR_WIDTH + BAR_TICS + (l->value_low < 0.0 ? BAR_MINUS : 0.0) +
+                  (l->above ? 0.0 : BAR_LABEL);
   l->width = l->left + l->across + (l->bar ? beside : EDGE);
   l->height = l->bottom + l->up + (has_text(map->title) || l->bar ? TITLE : EDGE) +
               (l->above ? TITLE : 0.0);
@@ -179,8 +202,13 @@ static void put_point(FILE *stream, const double xy[2], int power, const char *m
   fwrite(line, 1, (size_t)(at - line), stream);
 }
 
+static double bar_place(const cdem_map *map, const layout *l, double value) {
+  double place = (value - l->value_low) / (l->value_high - l->value_low);
+  return map->reversed ? 1.0 - place : place;
+}
+
 static uint32_t colour_of(const cdem_map *map, const layout *l, int64_t polygon) {
-  double place = (map->value[polygon] - l->value_low) / (l->value_high - l->value_low);
+  double place = bar_place(map, l, map->value[polygon]);
   return cdem_palette_colour(map->diverging, l->bar ? place : NAN,
                              map->shade != NULL ? map->shade[polygon] : 1.0);
 }
@@ -236,6 +264,92 @@ static void put_polygon(FILE *stream, const cdem_map *map, const layout *l, int6
     put_ring(stream, xy, corners, colour, map->value[p], power);
 }
 
+/* ---- marks as rings ---- */
+
+static uint32_t mark_colour(const cdem_map *map, const layout *l, const cdem_map_marks *m,
+                            int64_t i) {
+  double value = m->value != NULL ? m->value[i] : NAN, shade = m->shade != NULL ? m->shade[i] : 1.0;
+  unsigned plain = 0xcccccc, part[3];
+  if (isfinite(value) && l->bar)
+    return cdem_palette_colour(map->diverging, bar_place(map, l, value), shade);
+  if (m->colour != NULL && sscanf(m->colour, "#%2x%2x%2x", &part[0], &part[1], &part[2]) == 3)
+    plain = part[0] << 16 | part[1] << 8 | part[2];
+  uint32_t colour = 0;
+  for (int bit = 0; bit < 24; bit += 8)
+    colour |= (uint32_t)llround((plain >> bit & 0xff) * shade) << bit;
+  return colour;
+}
+
+static uint32_t darker(uint32_t colour) {
+  uint32_t dark = 0;
+  for (int bit = 0; bit < 24; bit += 8)
+    dark |= (uint32_t)llround((colour >> bit & 0xff) * RIM_SHADE) << bit;
+  return dark;
+}
+
+/* Corners enough that no chord is further from the circle than the eye sees. */
+static void put_disc(FILE *stream, const layout *l, const double centre[2], double radius,
+                     uint32_t colour, int power) {
+  double pixels = radius / (l->x_high - l->x_low) * l->across, xy[MOST_ROUND][2];
+  int corners = (int)ceil(3.14159265358979323846 / sqrt(2.0 * CHORD / fmax(pixels, CHORD)));
+  corners = corners < 8 ? 8 : corners > MOST_ROUND ? MOST_ROUND : corners;
+  for (int k = 0; k < corners; k++) {
+    double angle = 2.0 * 3.14159265358979323846 * k / corners;
+    xy[k][0] = centre[0] + radius * cos(angle);
+    xy[k][1] = centre[1] + radius * sin(angle);
+  }
+  put_ring(stream, (const double(*)[2])xy, corners, colour, NAN, (const int[2]){power, 0});
+}
+
+/* Along t from a to b, across n; an arrow's head is three shafts wide and four long. */
+static void put_stroke(FILE *stream, const cdem_map_marks *m, int64_t i, uint32_t colour,
+                       int power) {
+  const double *a = m->xy + 4 * i, *b = a + 2;
+  double x = b[0] - a[0], y = b[1] - a[1], length = sqrt(x * x + y * y), half = 0.5 * m->size[i];
+  if (!(length > 0.0 && half > 0.0))
+    return;
+  bool arrow = m->kind == CDEM_MAP_ARROWS;
+  double t[2] = {x / length, y / length}, head = arrow ? fmin(8.0 * half, 0.6 * length) : 0.0;
+  const double along[7] = {0.0, length - head, length - head, length, length - head, length - head,
+                           0.0};
+  const double aside[7] = {-half, -half, -0.375 * head, 0.0, 0.375 * head, half, half};
+  double xy[7][2];
+  int corners = 0;
+  for (int k = 0; k < 7; k++)
+    if (arrow || k < 2 || k > 4) {
+      xy[corners][0] = a[0] + along[k] * t[0] - aside[k] * t[1];
+      xy[corners++][1] = a[1] + along[k] * t[1] + aside[k] * t[0];
+    }
+  put_ring(stream, (const double(*)[2])xy, corners, colour, NAN, (const int[2]){power, 0});
+}
+
+/* All discs of a set have rims, or none; but for those that would be all rim. */
+static bool has_rims(const cdem_map_marks *m, double pixel) {
+  double sum = 0.0;
+  for (int64_t i = 0; i < m->marks && m->rims; i++)
+    sum += m->size[i];
+  return sum > LEAST_RIMMED * pixel * (double)m->marks;
+}
+
+static void put_marks(FILE *stream, const cdem_map *map, const layout *l, int power) {
+  double pixel = (l->x_high - l->x_low) / l->across;
+  for (int k = 0; k < map->mark_sets; k++) {
+    const cdem_map_marks *m = &map->marks[k];
+    bool rims = m->kind == CDEM_MAP_DISCS && has_rims(m, pixel);
+    for (int64_t i = 0; i < m->marks; i++) {
+      uint32_t colour = mark_colour(map, l, m, i);
+      if (m->kind != CDEM_MAP_DISCS) {
+        put_stroke(stream, m, i, colour, power);
+        continue;
+      }
+      bool rim = rims && m->size[i] > 2.0 * RIM * pixel;
+      put_disc(stream, l, m->xy + 4 * i, m->size[i], rim ? darker(colour) : colour, power);
+      if (rim)
+        put_disc(stream, l, m->xy + 4 * i, m->size[i] - RIM * pixel, colour, power);
+    }
+  }
+}
+
 /* A ring ends with an empty line, a set with two. */
 static void put_data(FILE *stream, const void *picture) {
   const cdem_map *map = picture;
@@ -247,6 +361,7 @@ static void put_data(FILE *stream, const void *picture) {
   fputs("# polygons: x y colour value\n", stream);
   for (int64_t p = 0; p < map->polygons; p++)
     put_polygon(stream, map, &l, p, power);
+  put_marks(stream, map, &l, power[0]);
   if (map->polygons == 0)
     fputs("nan nan 0 nan\n\n", stream);
   for (int k = 0; k < map->line_sets; k++) {
@@ -381,8 +496,10 @@ static void put_bar(FILE *stream, const cdem_map *map, const layout *l) {
   double factor = pow(10.0, power), x = l->left + l->across + BAR_GAP;
   fputs("set palette defined (", stream);
   for (int i = 0; i <= PALETTE_STEPS; i++)
-    fprintf(stream, "%s%d '#%06x'", i > 0 ? "," : "", i,
-            (unsigned)cdem_palette_colour(map->diverging, (double)i / PALETTE_STEPS, 1.0));
+    fprintf(
+        stream, "%s%d '#%06x'", i > 0 ? "," : "", i,
+        (unsigned)cdem_palette_colour(
+            map->diverging, (double)(map->reversed ? PALETTE_STEPS - i : i) / PALETTE_STEPS, 1.0));
   fprintf(stream, ")\nset palette maxcolors 0\n");
   cdem_gnuplot_range(stream, "cb", l->value_low / factor, l->value_high / factor);
   fputs("set colorbox vertical user origin ", stream);

@@ -139,7 +139,7 @@ bool cdem_parse_real(const char *from, int64_t length, locale_t locale, double *
 
 cdem_status cdem_read_msh(cdem_text *text, cdem_mesh_builder *builder, cdem_fault *fault);
 cdem_status cdem_read_inp(cdem_text *text, cdem_mesh_builder *builder, cdem_fault *fault);
-/* .geo, .step, .stp */
+/* .geo, .step, .stp, .stl */
 cdem_status cdem_read_geometry(const char *path, cdem_mesh_builder *builder, cdem_fault *fault);
 
 #endif

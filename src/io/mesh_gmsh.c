@@ -1,4 +1,5 @@
-/* Geometry files (.geo, .step, .stp), meshed by gmsh through its C interface.
+/* Geometry files (.geo, .step, .stp), meshed by gmsh through its C interface, and surfaces (.stl),
+ * whose triangles gmsh only joins at their corners.
  *
  * What gmsh needs to be told: General.AbortOnError = 0, or a meshing error ends the process;
  * General.Terminal = 0; no configuration files of the user (third argument of gmshInitialize). It

@@ -1,16 +1,18 @@
 #include "io/mesh_build.h"
 #include "io/mesh_parameters.h"
 
+#include <inttypes.h>
 #include <string.h>
 #include <strings.h>
 #include <unistd.h>
 
-typedef enum { MSH, INP, GEO, STEP, FORMATS } mesh_format;
+typedef enum { MSH, INP, GEO, STEP, STL, FORMATS } mesh_format;
 
 static const struct {
   const char *ending;
   mesh_format format;
-} endings[] = {{".msh", MSH}, {".geo", GEO}, {".step", STEP}, {".stp", STEP}, {".inp", INP}};
+} endings[] = {{".msh", MSH},  {".geo", GEO}, {".step", STEP},
+               {".stp", STEP}, {".stl", STL}, {".inp", INP}};
 enum { ENDINGS = sizeof endings / sizeof endings[0] };
 
 static mesh_format format_of(const char *path) {
@@ -34,6 +36,31 @@ static cdem_status check_geometry(const cdem_text *text, mesh_format format, cde
                "line 1: the file does not start with %s: it is no STEP file", first);
   CDEM_REQUIRE(memmem(text->end - head, (size_t)head, last, sizeof last - 1) != NULL, fault,
                CDEM_INPUT, "the file does not end with %s; it is not complete", last);
+  return CDEM_OK;
+}
+
+/* Of a cut STL file gmsh takes what is there. A binary one says how many triangles of 50 bytes
+ * follow its head of 84; one in text ends with the word "endsolid" and the solid's name. */
+static cdem_status check_stl(const cdem_text *text, cdem_fault *fault) {
+  static const char last[] = "endsolid";
+  enum { HEAD = 84, TRIANGLE = 50, TAIL = 4096 };
+  CDEM_REQUIRE(text->size > 0, fault, CDEM_INPUT, "the file is empty");
+  uint32_t triangles = 0;
+  if (text->size >= HEAD) {
+    memcpy(&triangles, text->data + HEAD - 4, sizeof triangles); /* little-endian, as we are */
+    if (text->size == HEAD + (int64_t)TRIANGLE * triangles)
+      return triangles > 0 ? CDEM_OK : cdem_fail(fault, CDEM_INPUT, "it holds no triangles");
+  }
+  int64_t tail = text->size < TAIL ? text->size : TAIL;
+  bool named = text->size > 5 && strncasecmp(text->data, "solid", 5) == 0;
+  bool ends = memmem(text->end - tail, (size_t)tail, last, sizeof last - 1) != NULL;
+  CDEM_REQUIRE(!named || ends, fault, CDEM_INPUT,
+               "it is no complete STL file: it starts with 'solid' but does not end with '%s'",
+               last);
+  CDEM_REQUIRE(named, fault, CDEM_INPUT,
+               "it is no complete STL file: of %" PRIu32 " triangles, its %" PRId64
+               " bytes hold another number",
+               triangles, text->size);
   return CDEM_OK;
 }
 
@@ -78,11 +105,14 @@ static cdem_status read_text(const char *path, mesh_format format,
   cdem_text text;
   CDEM_TRY(cdem_text_open(path, &text, fault));
   cdem_status status;
-  bool by_gmsh = format == GEO || format == STEP || (format == MSH && is_msh40(&text));
+  bool by_gmsh =
+      format == GEO || format == STEP || format == STL || (format == MSH && is_msh40(&text));
   if (format == MSH && by_gmsh)
     status = check_msh40(&text, fault);
   else if (format == MSH)
     status = cdem_read_msh(&text, builder, fault);
+  else if (format == STL)
+    status = check_stl(&text, fault);
   else if (format == INP)
     status = cdem_read_inp(&text, builder, fault);
   else
@@ -110,8 +140,9 @@ cdem_status cdem_read_mesh_with(const char *path, int parameters, const char *co
       format != FORMATS
           ? read_text(path, format, &(cdem_mesh_parameters){parameters, name, value}, &builder,
                       fault)
-          : cdem_fail(fault, CDEM_INPUT,
-                      "its ending is none of .msh .geo .step .stp .inp, which tell the format");
+          : cdem_fail(
+                fault, CDEM_INPUT,
+                "its ending is none of .msh .geo .step .stp .inp .stl, which tell the format");
   if (status == CDEM_OK)
     status = cdem_builder_finish(&builder, &built, fault);
   cdem_builder_release(&builder);

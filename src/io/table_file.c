@@ -65,6 +65,23 @@ void cdem_csv_value(FILE *stream, const cdem_value *value, cdem_column_type type
     cdem_csv_text(stream, value->text);
 }
 
+char *cdem_csv_take(char **at, bool *last) {
+  char *from = *at, *to = from, *field = from;
+  bool quoted = false;
+  for (; *from != '\0' && (quoted || (*from != ',' && *from != '\n')); from++) {
+    if (*from == '"' && quoted && from[1] == '"')
+      *to++ = *from++;
+    else if (*from == '"')
+      quoted = !quoted;
+    else
+      *to++ = *from;
+  }
+  *last = *from != ',';
+  *at = *from != '\0' ? from + 1 : from;
+  *to = '\0';
+  return field;
+}
+
 static void put_json_value(FILE *stream, const cdem_value *value, cdem_column_type type) {
   if (value->absent)
     fputs("null", stream);

@@ -310,22 +310,58 @@ cdem_status cdem_map_add_lines(cdem_map *map, const cdem_frame *frame, const cha
                "the data set '%s' has no field '%s' of one integer a cell to choose lines by",
                frame->set, field);
   CDEM_TRY(cdem_map_view_init(into, up, &view, fault));
-  int64_t segments = 0, capacity = map->line_sets;
+  int64_t segments = 0;
+  cdem_map_lines *lines;
   for (int64_t c = 0; c < frame->cells; c++)
     if (is_wanted(states, mask, c))
       segments += cdem_vtk_cell_get(frame->type[c])->edges;
-  CDEM_TRY(cdem_grow(&map->lines, &capacity, map->line_sets + 1, sizeof *map->lines, fault));
-  cdem_map_lines *lines = &map->lines[map->line_sets];
-  *lines = (cdem_map_lines){.title = title, .colour = colour, .width = width};
-  CDEM_NEW(lines->xy, 4 * segments, fault);
+  CDEM_TRY(cdem_map_add_segments(map, segments, title, colour, width, &lines, fault));
+  lines->segments = 0;
   for (int64_t c = 0; c < frame->cells; c++)
     if (is_wanted(states, mask, c))
       put_edges(frame, &view, c, lines);
+  return CDEM_OK;
+}
+
+cdem_status cdem_map_add_segments(cdem_map *map, int64_t segments, const char *title,
+                                  const char *colour, double width, cdem_map_lines **lines,
+                                  cdem_fault *fault) {
+  int64_t capacity = map->line_sets;
+  CDEM_TRY(cdem_grow(&map->lines, &capacity, map->line_sets + 1, sizeof *map->lines, fault));
+  cdem_map_lines *made = &map->lines[map->line_sets];
+  *made = (cdem_map_lines){.title = title, .colour = colour, .width = width, .segments = segments};
+  CDEM_NEW(made->xy, 4 * segments, fault);
   map->line_sets++;
+  *lines = made;
+  return CDEM_OK;
+}
+
+/* ---- marks ---- */
+
+cdem_status cdem_map_add_marks(cdem_map *map, cdem_map_mark kind, int64_t count, bool value,
+                               bool shade, cdem_map_marks **marks, cdem_fault *fault) {
+  int64_t capacity = map->mark_sets;
+  CDEM_TRY(cdem_grow(&map->marks, &capacity, map->mark_sets + 1, sizeof *map->marks, fault));
+  cdem_map_marks *made = &map->marks[map->mark_sets++]; /* counted at once: released with the map */
+  *made = (cdem_map_marks){.kind = kind, .marks = count};
+  CDEM_NEW(made->xy, 4 * count, fault);
+  CDEM_NEW(made->size, count, fault);
+  if (value)
+    CDEM_NEW(made->value, count, fault);
+  if (shade)
+    CDEM_NEW(made->shade, count, fault);
+  *marks = made;
   return CDEM_OK;
 }
 
 void cdem_map_release(cdem_map *map) {
+  for (int i = 0; i < map->mark_sets; i++) {
+    free(map->marks[i].xy);
+    free(map->marks[i].size);
+    free(map->marks[i].value);
+    free(map->marks[i].shade);
+  }
+  free(map->marks);
   for (int i = 0; i < map->line_sets; i++)
     free(map->lines[i].xy);
   free(map->lines);

@@ -185,6 +185,87 @@ static void bodies_without_axes_have_a_scale(void **unused) {
   }
 }
 
+/* Rings of a data file: how many, and the corners of one (its closing point too). */
+static int count_rings(const char *text) {
+  int rings = 0;
+  for (const char *at = strstr(text, "\n\n"); at != NULL; at = strstr(at + 2, "\n\n"))
+    rings++;
+  return rings;
+}
+
+static int read_ring(const char *text, int ring, double (*out)[2], int most) {
+  int points = 0;
+  text = strchr(text, '\n') + 1;
+  for (; ring > 0; ring--)
+    text = strstr(text, "\n\n") + 2;
+  for (; *text != '\n' && points < most; points++) {
+    assert_int_equal(sscanf(text, "%lf %lf", &out[points][0], &out[points][1]), 2);
+    text = strchr(text, '\n') + 1;
+  }
+  return points;
+}
+
+static void marks_are_rings(void **unused) {
+  (void)unused;
+  cdem_fault fault = {0};
+  cdem_map map = {.value_label = "speed", .value_max = 4, .page = 1.5};
+  cdem_map_marks *discs, *strokes, *arrows;
+  check_ok(cdem_map_add_marks(&map, CDEM_MAP_DISCS, 3, true, true, &discs, &fault));
+  check_ok(cdem_map_add_marks(&map, CDEM_MAP_STROKES, 2, false, false, &strokes, &fault));
+  check_ok(cdem_map_add_marks(&map, CDEM_MAP_ARROWS, 1, true, false, &arrows, &fault));
+  discs = &map.marks[0], strokes = &map.marks[1];
+  const double radius[3] = {1, 0.001, 0.5}, x[3] = {1, 3, 5};
+  for (int k = 0; k < 3; k++) {
+    discs->xy[4 * k] = x[k];
+    discs->size[k] = radius[k];
+    discs->value[k] = k == 2 ? NAN : 4.0 * k;
+    discs->shade[k] = 1.0;
+  }
+  discs->colour = "#c08040";
+  const double way[8] = {0, 2, 4, 2, 1, 1, 1, 1}, arrow[4] = {0, -2, 0, -1};
+  memcpy(strokes->xy, way, sizeof way); /* the second has no length */
+  strokes->size[0] = 0.2;
+  strokes->size[1] = 0.2;
+  strokes->colour = "#102030";
+  memcpy(arrows->xy, arrow, sizeof arrow);
+  arrows->size[0] = 0.05;
+  arrows->value[0] = 4;
+  char *text = draw("marks", &map, "dat");
+  double ring[130][2];
+  assert_int_equal(count_rings(text), 6); /* the last one says that there are no polygons */
+  int corners = read_ring(text, 0, ring, 130);
+  assert_true(corners > 30 && corners < 130); /* nearly a circle ... */
+  for (int k = 0; k < corners; k++)
+    check_near(hypot(ring[k][0] - 1, ring[k][1]), 1, 1e-5, 0);
+  assert_int_equal(read_ring(text, 1, ring, 130), 9); /* ... and a dot of eight sides */
+  assert_int_equal(colour_in(text, 0), cdem_palette_colour(false, 0, 1));
+  assert_int_equal(colour_in(text, 1), cdem_palette_colour(false, 1, 1));
+  assert_int_equal(colour_in(text, 2), 0xc08040);
+  assert_int_equal(colour_in(text, 3), 0x102030);
+  assert_int_equal(read_ring(text, 3, ring, 130), 5);
+  for (int k = 0; k < 4; k++)
+    check_near(fabs(ring[k][1] - 2), 0.1, 1e-5, 0);
+  assert_int_equal(read_ring(text, 4, ring, 130), 8); /* shaft 0.8 long, head to the tip */
+  check_near(ring[3][1], -1, 1e-5, 0);
+  check_near(ring[1][1], -1.2, 1e-5, 0);
+  check_near(fabs(ring[2][0]), 0.075, 1e-4, 0);
+  free(text);
+  map.reversed = true;
+  discs->rims = true;
+  text = draw("reversed", &map, "dat"); /* rims: the two that are large enough, below */
+  assert_int_equal(count_rings(text), 8);
+  assert_int_equal(colour_in(text, 1), cdem_palette_colour(false, 1, 1));
+  free(text);
+  text = draw("reversed", &map, "gp");
+  double page[2];
+  assert_int_equal(
+      sscanf(strstr(text, "svg enhanced size"), "svg enhanced size %lf,%lf", &page[0], &page[1]),
+      2);
+  assert_true(page[0] > 1.5 * 330);
+  free(text);
+  cdem_map_release(&map);
+}
+
 static void nothing_is_drawn_too(void **unused) {
   (void)unused;
   cdem_map empty = {0};
@@ -256,6 +337,7 @@ int main(void) {
       cmocka_unit_test(outlines_are_below_smaller_polygons),
       cmocka_unit_test(scripts_say_what_is_drawn),
       cmocka_unit_test(bodies_without_axes_have_a_scale),
+      cmocka_unit_test(marks_are_rings),
       cmocka_unit_test(nothing_is_drawn_too),
       cmocka_unit_test(failures_are_told),
       cmocka_unit_test(palettes_are_even),

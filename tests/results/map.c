@@ -406,6 +406,31 @@ static void what_cannot_be_drawn_is_named(void **unused) {
   }
 }
 
+/* ---- marks and segments ---- */
+
+static void marks_are_sets_of_zeroed_arrays(void **unused) {
+  (void)unused;
+  cdem_fault fault = {0};
+  cdem_map map = {0};
+  cdem_map_marks *marks;
+  cdem_map_lines *lines;
+  check_ok(cdem_map_add_marks(&map, CDEM_MAP_DISCS, 3, true, false, &marks, &fault));
+  assert_true(marks->value != NULL && marks->shade == NULL && marks->size[2] == 0.0);
+  check_ok(cdem_map_add_marks(&map, CDEM_MAP_ARROWS, 0, false, true, &marks, &fault));
+  assert_true(marks == &map.marks[1] && marks->kind == CDEM_MAP_ARROWS && marks->shade != NULL);
+  check_ok(cdem_map_add_segments(&map, 2, "wall", "#000000", 1.5, &lines, &fault));
+  assert_true(lines->segments == 2 && lines->xy[7] == 0.0 && lines->width == 1.5);
+  for (int n = 0; n < 4; n++) { /* what was made before is kept, and all of it is released */
+    cdem_memory_fail_after(n);
+    check_fails(cdem_map_add_marks(&map, CDEM_MAP_STROKES, 5, true, true, &marks, &fault),
+                CDEM_MEMORY, "");
+  }
+  cdem_memory_fail_after(-1);
+  assert_int_equal(map.marks[0].marks, 3);
+  cdem_map_release(&map);
+  assert_true(map.marks == NULL && map.mark_sets == 0 && map.lines == NULL);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(invariants_in_closed_form),
@@ -417,6 +442,7 @@ int main(void) {
       cmocka_unit_test(the_nearest_is_painted_last),
       cmocka_unit_test(lines_are_chosen_by_state),
       cmocka_unit_test(what_cannot_be_drawn_is_named),
+      cmocka_unit_test(marks_are_sets_of_zeroed_arrays),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
