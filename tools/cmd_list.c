@@ -2,7 +2,9 @@
 #include "base/suggest.h"
 #include "cases/schema.h"
 #include "command.h"
+#include "dem/packing.h"
 
+#include <math.h>
 #include <string.h>
 
 static void list_elements(void) {
@@ -57,6 +59,52 @@ static void list_case(void) {
   cdem_case_walk(list_key, NULL);
 }
 
+/* A word with its unit, what holds without it, and its help. */
+static void list_want(const cdem_law_want *want) {
+  const cdem_law_key_info *key = cdem_law_key_get((int)want->key);
+  char unit[48], otherwise[32] = "";
+  if (want->required)
+    snprintf(otherwise, sizeof otherwise, "required");
+  else if (!isnan(want->fallback))
+    snprintf(otherwise, sizeof otherwise, "%g", want->fallback);
+  printf("    %-24s [%s] %s%s%s%s\n", key->name, cdem_dimension_unit(key->dimension, unit),
+         key->help, otherwise[0] != '\0' ? " (" : "", otherwise, otherwise[0] != '\0' ? ")" : "");
+}
+
+static void list_resistances(const char *what, const cdem_resistance *(*at)(int index)) {
+  printf("%s (grains.%.*s)\n", what, (int)strcspn(what, " "), what);
+  for (int i = 0; at(i) != NULL; i++) {
+    printf("  %s: %s\n", at(i)->name, at(i)->help);
+    for (int k = 0; k < at(i)->wants; k++)
+      list_want(&at(i)->want[k]);
+  }
+}
+
+static const char *dims_of(const bool dims[4]) {
+  return dims[2] && dims[3] ? "2-D, 3-D" : dims[2] ? "2-D" : "3-D";
+}
+
+static void list_laws(void) {
+  printf("contact laws of grains (grains.law), with the words they take in `contacts` ([unit], "
+         "default in brackets)\n");
+  for (int i = 0; cdem_law_at(i) != NULL; i++) {
+    const cdem_law *law = cdem_law_at(i);
+    printf("  %s (%s): %s\n", law->name, dims_of(law->dims), law->help);
+    for (int k = 0; k < law->wants; k++)
+      list_want(&law->want[k]);
+  }
+  list_resistances("rolling resistance", cdem_rolling_at);
+  list_resistances("twisting resistance", cdem_twisting_at);
+}
+
+static void list_packings(void) {
+  printf("packings of grains (grains.packing.kind)\n");
+  for (int i = 0; cdem_packing_at(i) != NULL; i++) {
+    const cdem_packing *packing = cdem_packing_at(i);
+    printf("  %-10s (%s) %s\n", packing->name, dims_of(packing->dims), packing->help);
+  }
+}
+
 static void list_commands(void) {
   printf("commands\n");
   for (const command *c = commands; c->name != NULL; c++)
@@ -68,7 +116,8 @@ static const struct {
   void (*print)(void);
 } topics[] = {
     {"elements", list_elements}, {"materials", list_materials}, {"formats", list_formats},
-    {"commands", list_commands}, {"case", list_case},
+    {"laws", list_laws},         {"packings", list_packings},   {"commands", list_commands},
+    {"case", list_case},
 };
 
 enum { TOPICS = sizeof topics / sizeof topics[0] };
@@ -87,7 +136,7 @@ int cmd_list(int argc, char **argv) {
   static const struct argp_option none[] = {{0}};
   static const struct argp argp = {none,
                                    parse,
-                                   "[elements|materials|formats|commands|case]",
+                                   "[elements|materials|formats|laws|packings|commands|case]",
                                    "Lists what the program knows.",
                                    NULL,
                                    NULL,

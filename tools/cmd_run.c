@@ -27,7 +27,8 @@ static const struct argp_option option_table[] = {
     {"set", OPTION_SET, "KEY=VALUE", 0, "replace a value of the case: --set mesh.parameters.h=0.01",
      0},
     {"threads", OPTION_THREADS, "N", 0,
-     "threads (default: as many as the size of the body is worth); results do not depend on it", 0},
+     "threads (default: as many as the size of the problem is worth); results do not depend on it",
+     0},
     {"check", OPTION_CHECK, NULL, 0, "read and build everything, run nothing", 0},
     {"no-figures", OPTION_NO_FIGURES, NULL, 0, "draw no figures", 0},
     {"no-frames", OPTION_NO_FRAMES, NULL, 0, "write no .pvd and .vtu frames", 0},
@@ -127,6 +128,12 @@ static bool report(void *context, const char *what, int64_t done, int64_t total)
 /* ---- what is said at the end ---- */
 
 static void print_sizes(const cdem_run_summary *r) {
+  if (r->grains > 0) {
+    printf("  size          %lld grains, %lld contacts, %lld walls", (long long)r->grains,
+           (long long)r->contacts, (long long)r->walls);
+    printf(r->bonds > 0 ? ", %lld bonds\n" : "\n", (long long)r->bonds);
+    return;
+  }
   printf("  size          %lld elements (%lld distinct), %lld nodes, %lld unknowns\n",
          (long long)r->elements, (long long)r->distinct, (long long)r->nodes,
          (long long)r->unknowns);
@@ -171,11 +178,12 @@ static void print_summary(const cdem_run_summary *r, const char *folder) {
     print_line(r->title);
   print_sizes(r);
   if (r->steps > 0) {
-    double work = (double)r->steps * (double)r->elements;
+    bool grains = r->grains > 0;
+    double work = (double)r->steps * (double)(grains ? r->grains : r->elements);
     printf("  steps         %lld of %.4g s (limited by %s), to t = %.6g s\n", (long long)r->steps,
            r->step, r->limiter, r->time);
-    printf("  wall time     %.3g s, %.3g element-steps/s\n", r->wall,
-           r->wall > 0.0 ? work / r->wall : 0.0);
+    printf("  wall time     %.3g s, %.3g %s-steps/s\n", r->wall,
+           r->wall > 0.0 ? work / r->wall : 0.0, grains ? "grain" : "element");
     printf("  energy error  %.2e\n", r->energy_error);
   } else {
     printf("  wall time     %.3g s\n", r->wall);
@@ -216,7 +224,7 @@ int cmd_run(int argc, char **argv) {
       option_table,
       parse,
       "CASE.yaml",
-      "Runs a case: CDEM with blocks, breakable interfaces and contact.\v"
+      "Runs a case: CDEM with blocks, breakable interfaces and contact, or DEM of grains.\v"
       "`cdem help case` explains the case file. Ctrl-C writes a checkpoint; `cdem run --resume "
       "DIR` "
       "goes on from it to the same bits. Exit code 1 when a key result with a tolerance is off.",

@@ -190,3 +190,7 @@ cdem_status cdem_case_blame(const cdem_case *cases, const char *key, cdem_fault 
 bool cdem_case_given(const cdem_case *cases, const char *key) {
   return cdem_case_places_find(cases->places, key) != NULL;
 }
+
+bool cdem_case_has_grains(const cdem_case *cases) {
+  return cdem_case_given(cases, "grains");
+}

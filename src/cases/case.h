@@ -11,6 +11,7 @@
 
 #include "base/base.h"
 #include "base/series.h"
+#include "dem/law.h"
 #include "elements/material.h"
 
 #include <stdbool.h>
@@ -122,14 +123,132 @@ typedef struct {
   double center[3];
 } cdem_case_initial;
 
+/* ---- grains ---- */
+
+/* grains: materials: NAME: */
+typedef struct {
+  char *name;
+  double density;        /* kg/m^3 */
+  double young, poisson; /* Pa, -; NaN: none */
+} cdem_case_grain_material;
+
+/* grains: packing: classes: - ; of sizes: table */
+typedef struct {
+  double radius, fraction; /* m; of the solid volume (area) */
+} cdem_case_size_class;
+
+/* grains: packing: compact: */
+typedef struct {
+  double fraction, pressure; /* -, Pa; NaN: the other one decides */
+  double stiffness;          /* N/m; NaN: from the pressure */
+  double friction, restitution;
+} cdem_case_compact;
+
+/* grains: packing: */
+typedef struct {
+  int kind; /* index into packings.def */
+  double low[3], high[3];
+  bool centres_inside, cylinder;
+  cdem_case_texts periodic; /* x y z; none: those of the cell */
+  double radius;            /* m; NaN: none */
+  int sizes;                /* cdem_size_kind */
+  double least, most, exponent, spread;
+  CDEM_CASE_LIST(cdem_case_size_class) classes;
+  int64_t count;   /* 0: by fraction */
+  double fraction; /* NaN: none */
+  int64_t seed;
+  cdem_case_compact compact;
+} cdem_case_packing;
+
+/* grains: */
+typedef struct {
+  int64_t dimension;          /* 2 or 3 */
+  int law, rolling, twisting; /* index into laws.def, resistances.def */
+  char *file;                 /* as written; relative to the case file */
+  cdem_case_packing packing;
+  char *material; /* of grains whose file names none; NULL: the first one */
+  CDEM_CASE_LIST(cdem_case_grain_material) materials;
+  double most_overlap;      /* of grains at the start, in radii of the smaller one */
+  double skin;              /* of the neighbour list, in mean radii; NaN: automatic */
+  cdem_case_texts pictures; /* of the last state; none: the usual ones */
+} cdem_case_grains;
+
+/* contacts: - ; the first entry that fits a pair of materials is its law */
+typedef struct {
+  cdem_case_texts between;     /* none or two materials of grains (may be the same) */
+  double value[CDEM_LAW_KEYS]; /* the words of law_keys.def; NaN: not given */
+} cdem_case_grain_contact;
+
+/* walls: NAME: */
+typedef struct {
+  char *name;
+  int shape; /* cdem_wall_shape */
+  char *material;
+  double center[3], normal[3], axis[3], half_size[2], radius;
+  bool outside;
+  char *file, *group; /* of a mesh; NULL: none, all of the file */
+  double unit;
+  cdem_case_components velocity, spin; /* x y z; 2-D: the spin about z */
+  double servo[3];
+  bool has_servo_force;
+  cdem_series servo_force;
+  double servo_speed, servo_gain;
+  double start, stop; /* s; stop NaN: never */
+} cdem_case_wall;
+
+/* bonds: - ; all pairs of the materials that are closer than the gap at the start */
+typedef struct {
+  cdem_case_texts between;
+  double gap; /* between the surfaces, in mean radii of the pair */
+  double normal_stiffness, shear_stiffness, rolling_stiffness, twisting_stiffness;
+  double damping_ratio, tension, cohesion, friction, moment;
+} cdem_case_bond;
+
+/* cell: rate: and cell: stress: */
+typedef struct {
+  bool given[9];
+  cdem_series component[9]; /* row-major: xx xy xz yx .. zz */
+} cdem_case_tensor;
+
+/* cell: */
+typedef struct {
+  double low[3], size[3]; /* m; size 0: that of the packing */
+  double tilt[3];         /* xy, xz, yz: how far the edges y and z lean */
+  cdem_case_texts periodic;
+  cdem_case_tensor rate, stress; /* 1/s; Pa, compression positive, diagonal only */
+  double servo_rate, servo_gain;
+} cdem_case_cell;
+
+/* probes: NAME: region: of grains; low >= high in a direction: all of it */
+typedef struct {
+  double low[3], high[3];
+} cdem_case_region;
+
 /* probes: NAME: a column of history.csv */
 typedef struct {
   char *name;
-  char *group;
-  int quantity; /* displacement velocity force stress; force is the sum, others means over the group
-                 */
+  char *group;   /* of a body */
+  int quantity;  /* displacement velocity force stress; force is the sum, others means over the
+                    group;  of grains: velocity stress count mass solid coordination surface_angle
+                    center stress_ratio */
   int component; /* x y z rotation, xx yy zz yz xz xy, magnitude */
+  cdem_case_region region; /* of grains */
+  int surface;             /* cdem_surface_kind */
 } cdem_case_probe;
+
+enum { /* the choices of `quantity` */
+       CDEM_PROBE_DISPLACEMENT,
+       CDEM_PROBE_VELOCITY,
+       CDEM_PROBE_FORCE,
+       CDEM_PROBE_STRESS,
+       CDEM_PROBE_COUNT,
+       CDEM_PROBE_MASS,
+       CDEM_PROBE_SOLID,
+       CDEM_PROBE_COORDINATION,
+       CDEM_PROBE_SURFACE_ANGLE,
+       CDEM_PROBE_CENTER,
+       CDEM_PROBE_STRESS_RATIO
+};
 
 /* curves: NAME: a figure drawn from history.csv */
 typedef struct {
@@ -141,13 +260,17 @@ typedef struct {
   char *x_label, *y_label;
 } cdem_case_curve;
 
-/* results: of a run, key numbers in summary.json: NAME: {of: column, take: max|min|last|mean} */
+/* results: of a run, key numbers in summary.json: NAME: {of: column, take: max|min|last|mean|slope}
+ */
 typedef struct {
   char *name;
   char *of;
-  int take;                    /* max min last mean */
+  int take;                    /* max min last mean slope */
+  double from, to;             /* rows of this time only, s; NaN: of all */
   double factor;               /* multiplies the column before */
   double reference, tolerance; /* expected value and relative tolerance; NaN: none */
+  cdem_case_texts against;     /* columns whose sum, taken alike, is the reference */
+  double against_factor;       /* multiplies that sum before */
 } cdem_case_key_result;
 
 typedef enum {
@@ -181,6 +304,11 @@ typedef struct {
   CDEM_CASE_LIST(cdem_case_support) supports;
   CDEM_CASE_LIST(cdem_case_load) loads;
   CDEM_CASE_LIST(cdem_case_plate) plates;
+  cdem_case_grains grains;
+  CDEM_CASE_LIST(cdem_case_grain_contact) contacts;
+  CDEM_CASE_LIST(cdem_case_wall) walls;
+  CDEM_CASE_LIST(cdem_case_bond) bonds;
+  cdem_case_cell cell;
   CDEM_CASE_LIST(cdem_case_initial) initial;
   CDEM_CASE_LIST(cdem_case_probe) probes;
   CDEM_CASE_LIST(cdem_case_curve) curves;
@@ -201,6 +329,11 @@ void cdem_case_release(cdem_case *cases);
 
 /* Whether the file or an override gave this key ("mesh.size", "loads[0]"). */
 bool cdem_case_given(const cdem_case *cases, const char *key);
+/* A case is of grains, or of a body. */
+bool cdem_case_has_grains(const cdem_case *cases);
+
+/* Is direction 0, 1, 2 among the texts x, y, z? */
+bool cdem_case_names_direction(const cdem_case_texts *directions, int direction);
 
 /* A failure that has to do with the value at `key` ("supports[1].group", "step"): the message gets
  * file:line:column and the line with a caret. A key that was not given: the nearest section above

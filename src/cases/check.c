@@ -52,8 +52,9 @@ static cdem_status check_analysis(const cdem_case *cases, cdem_fault *fault) {
                             "a dynamic run needs 'end', the time at which it ends");
     return check_foreign(cases, "dynamic", solved, 2, fault);
   }
-  if (v->analysis == CDEM_ANALYSIS_RELAXATION)
-    return check_foreign(cases, "relaxation", timed, 2, fault);
+  if (v->analysis == CDEM_ANALYSIS_RELAXATION) /* grains relax in time, bodies do not */
+    return cdem_case_has_grains(cases) ? CDEM_OK
+                                       : check_foreign(cases, "relaxation", timed, 2, fault);
   if (v->contact.active)
     return cdem_case_fail(cases, "contact", CDEM_INPUT, fault,
                           "a static run knows no contact; leave 'contact' out or let 'analysis' be "
@@ -70,8 +71,16 @@ static cdem_status check_contact(const cdem_case *cases, cdem_fault *fault) {
 }
 
 cdem_status cdem_case_check(const cdem_case *cases, cdem_fault *fault) {
+  CDEM_TRY(cdem_case_check_kind(cases, fault));
   CDEM_TRY(check_analysis(cases, fault));
   CDEM_TRY(cdem_case_check_exclusive(cases, "", "step", "safety", fault));
+  if (cdem_case_has_grains(cases)) {
+    CDEM_TRY(cdem_case_check_grains(cases, fault));
+    CDEM_TRY(cdem_case_check_walls(cases, fault));
+    CDEM_TRY(cdem_case_check_cell(cases, fault));
+    CDEM_TRY(cdem_case_check_initial(cases, fault));
+    return cdem_case_check_output(cases, fault);
+  }
   CDEM_TRY(cdem_case_check_mesh(cases, fault));
   CDEM_TRY(cdem_case_check_materials(cases, fault));
   CDEM_TRY(cdem_case_check_interfaces(cases, fault));

@@ -27,4 +27,18 @@ cdem_status cdem_case_check_mesh(const cdem_case *cases, cdem_fault *fault);
 cdem_status cdem_case_check_materials(const cdem_case *cases, cdem_fault *fault);
 cdem_status cdem_case_check_interfaces(const cdem_case *cases, cdem_fault *fault);
 
+/* check_grains.c: a run of grains as a whole. */
+cdem_status cdem_case_check_grains(const cdem_case *cases, cdem_fault *fault);
+/* Keys of the one kind of run in the other. */
+cdem_status cdem_case_check_kind(const cdem_case *cases, cdem_fault *fault);
+/* check_walls.c */
+cdem_status cdem_case_check_walls(const cdem_case *cases, cdem_fault *fault);
+cdem_status cdem_case_check_cell(const cdem_case *cases, cdem_fault *fault);
+/* Texts that must be x, y, z. */
+cdem_status cdem_case_check_directions(const cdem_case *cases, const char *key,
+                                       const cdem_case_texts *directions, cdem_fault *fault);
+/* A material of grains; NULL as a name: the first. CDEM_INPUT at the key when there is none. */
+cdem_status cdem_case_check_grain_material(const cdem_case *cases, const char *key,
+                                           const char *name, cdem_fault *fault);
+
 #endif

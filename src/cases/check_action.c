@@ -121,6 +121,11 @@ cdem_status cdem_case_check_plates(const cdem_case *cases, cdem_fault *fault) {
 cdem_status cdem_case_check_initial(const cdem_case *cases, cdem_fault *fault) {
   char key[CDEM_CASE_PATH], spin[CDEM_CASE_PATH];
   for (int64_t i = 0; i < cases->values.initial.count; i++) {
+    if (cdem_case_has_grains(cases) && cases->values.initial.item[i].groups.count > 0)
+      return cdem_case_fail(cases, cdem_case_item_key(key, "initial", i, "groups"), CDEM_INPUT,
+                            fault,
+                            "'groups' has no meaning for grains: an initial motion is that of all; "
+                            "give single grains theirs in the columns of grains.file");
     cdem_case_item_key(spin, "initial", i, "spin");
     cdem_case_item_key(key, "initial", i, "velocity");
     if (!cdem_case_given(cases, key) && !cdem_case_given(cases, spin))
@@ -136,27 +141,127 @@ cdem_status cdem_case_check_initial(const cdem_case *cases, cdem_fault *fault) {
 
 /* ---- probes, results, the end ---- */
 
-enum { STRESS = 3, FIRST_TENSOR = 4, MAGNITUDE = 10, ROTATION = 3 }; /* of the choices of probes */
+enum { ROTATION = 3, FIRST_TENSOR = 4, MAGNITUDE = 10 }; /* of the components of probes */
+
+static cdem_status probe_fail(const cdem_case *cases, const cdem_case_probe *probe,
+                              const char *rest, const char *message, cdem_fault *fault) {
+  char key[CDEM_CASE_PATH];
+  return cdem_case_fail(cases, cdem_case_named_key(key, "probes", probe->name, rest), CDEM_INPUT,
+                        fault, "%s", message);
+}
+
+static cdem_status probe_needs(const cdem_case *cases, const cdem_case_probe *probe,
+                               const char *rest, cdem_fault *fault) {
+  char key[CDEM_CASE_PATH];
+  cdem_case_named_key(key, "probes", probe->name, "");
+  return cdem_case_fail(cases, key, CDEM_INPUT, fault, "%s needs '%s'", key, rest);
+}
+
+static bool probe_gives(const cdem_case *cases, const cdem_case_probe *probe, const char *rest) {
+  char key[CDEM_CASE_PATH];
+  return cdem_case_given(cases, cdem_case_named_key(key, "probes", probe->name, rest));
+}
+
+static cdem_status check_probe_of_body(const cdem_case *cases, const cdem_case_probe *probe,
+                                       cdem_fault *fault) {
+  if (probe->group == NULL)
+    return probe_needs(cases, probe, "group", fault);
+  if (probe->quantity > CDEM_PROBE_STRESS)
+    return probe_fail(cases, probe, "quantity",
+                      "a body has displacement, velocity, force and stress; this quantity is one "
+                      "of grains",
+                      fault);
+  if (probe_gives(cases, probe, "region"))
+    return probe_fail(cases, probe, "region",
+                      "'region' has a meaning for grains only; name a 'group' of the mesh", fault);
+  if (!probe_gives(cases, probe, "component"))
+    return probe_needs(cases, probe, "component", fault);
+  if (probe->component == ROTATION && !cases->values.cosserat)
+    return probe_fail(cases, probe, "component",
+                      "'rotation' is a degree of freedom of Cosserat materials only", fault);
+  return CDEM_OK;
+}
+
+static cdem_status check_probe_of_grains(const cdem_case *cases, const cdem_case_probe *probe,
+                                         cdem_fault *fault) {
+  bool vector = probe->quantity == CDEM_PROBE_VELOCITY || probe->quantity == CDEM_PROBE_CENTER,
+       flat = cases->values.grains.dimension == 2,
+       component = probe_gives(cases, probe, "component");
+  if (probe->group != NULL)
+    return probe_fail(cases, probe, "group",
+                      "'group' has no meaning for grains, which have no mesh; give a 'region'",
+                      fault);
+  if (probe->quantity == CDEM_PROBE_DISPLACEMENT || probe->quantity == CDEM_PROBE_FORCE)
+    return probe_fail(
+        cases, probe, probe_gives(cases, probe, "quantity") ? "quantity" : "",
+        "grains have the quantities velocity, center, stress, count, mass, solid, "
+        "coordination, surface_angle, center and stress_ratio; the force on a wall is a "
+        "column already, "
+        "wall.NAME.fx",
+        fault);
+  if ((vector || probe->quantity == CDEM_PROBE_STRESS) && !component)
+    return probe_needs(cases, probe, "component", fault);
+  if (!vector && probe->quantity != CDEM_PROBE_STRESS && component)
+    return probe_fail(cases, probe, "component",
+                      "'component' has no meaning for a quantity that is one number; leave it out",
+                      fault);
+  if (component && (probe->component == ROTATION ||
+                    (flat && (probe->component == 2 || (probe->component > FIRST_TENSOR + 1 &&
+                                                        probe->component < MAGNITUDE - 1)))))
+    return probe_fail(cases, probe, "component",
+                      flat ? "grains in 2-D have the components x, y, xx, yy, xy and magnitude"
+                           : "grains have the components x, y, z, xx .. xy and magnitude",
+                      fault);
+  if (probe_gives(cases, probe, "surface") && probe->quantity != CDEM_PROBE_SURFACE_ANGLE)
+    return probe_fail(cases, probe, "surface",
+                      "'surface' has a meaning beside 'quantity: surface_angle' only", fault);
+  return CDEM_OK;
+}
 
 static cdem_status check_probe(const cdem_case *cases, const cdem_case_probe *probe,
                                cdem_fault *fault) {
   char key[CDEM_CASE_PATH];
   bool tensor = probe->component >= FIRST_TENSOR && probe->component < MAGNITUDE;
-  cdem_case_named_key(key, "probes", probe->name, "component");
   if (strcmp(probe->name, "time") == 0)
     return cdem_case_fail(cases, cdem_case_named_key(key, "probes", probe->name, ""), CDEM_INPUT,
                           fault, "'%s' is a column of every history; give the probe another name",
                           probe->name);
-  if (probe->quantity == STRESS && !tensor)
-    return cdem_case_fail(cases, key, CDEM_INPUT, fault,
-                          "a stress has the components xx yy zz yz xz xy");
-  if (probe->quantity != STRESS && tensor)
-    return cdem_case_fail(cases, key, CDEM_INPUT, fault,
-                          "displacement, velocity and force have the components x y z rotation "
-                          "magnitude; xx .. xy are those of 'quantity: stress'");
-  if (probe->component == ROTATION && !cases->values.cosserat)
-    return cdem_case_fail(cases, key, CDEM_INPUT, fault,
-                          "'rotation' is a degree of freedom of Cosserat materials only");
+  if (probe->quantity == CDEM_PROBE_STRESS && !tensor && probe_gives(cases, probe, "component"))
+    return probe_fail(cases, probe, "component", "a stress has the components xx yy zz yz xz xy",
+                      fault);
+  if (probe->quantity != CDEM_PROBE_STRESS && tensor)
+    return probe_fail(cases, probe, "component",
+                      "displacement, velocity and force have the components x y z rotation "
+                      "magnitude; xx .. xy are those of 'quantity: stress'",
+                      fault);
+  return cdem_case_has_grains(cases) ? check_probe_of_grains(cases, probe, fault)
+                                     : check_probe_of_body(cases, probe, fault);
+}
+
+static cdem_status result_fail(const cdem_case *cases, const cdem_case_key_result *result,
+                               const char *rest, const char *message, cdem_fault *fault) {
+  char key[CDEM_CASE_PATH];
+  return cdem_case_fail(cases, cdem_case_named_key(key, "results", result->name, rest), CDEM_INPUT,
+                        fault, "%s", message);
+}
+
+static cdem_status check_result(const cdem_case *cases, const cdem_case_key_result *result,
+                                cdem_fault *fault) {
+  char key[CDEM_CASE_PATH];
+  bool number = !isnan(result->reference), columns = result->against.count > 0;
+  if (!isnan(result->tolerance) && !number && !columns)
+    return result_fail(cases, result, "tolerance", "'tolerance' needs 'reference' beside it",
+                       fault);
+  if (number && columns)
+    return result_fail(cases, result, "against",
+                       "the expected value is 'reference' or 'against', not both", fault);
+  if (!columns &&
+      cdem_case_given(cases, cdem_case_named_key(key, "results", result->name, "against_factor")))
+    return result_fail(cases, result, "against_factor", "'against_factor' needs 'against'", fault);
+  if (result->from >= result->to) /* false with NaN */
+    return result_fail(cases, result, "to", "'to' must be later than 'from'", fault);
+  if (result->from >= cases->values.end)
+    return result_fail(cases, result, "from", "'from' must be earlier than 'end'", fault);
   return CDEM_OK;
 }
 
@@ -174,18 +279,13 @@ static cdem_status check_often(const cdem_case *cases, const char *key, double e
 
 cdem_status cdem_case_check_output(const cdem_case *cases, cdem_fault *fault) {
   const cdem_case_values *v = &cases->values;
-  char key[CDEM_CASE_PATH];
   CDEM_TRY(check_often(cases, "history_every", v->history_every, 1e8, fault));
   CDEM_TRY(check_often(cases, "frame_every", v->frame_every, 1e6, fault));
   CDEM_TRY(check_often(cases, "checkpoint_every", v->checkpoint_every, 1e8, fault));
   for (int64_t i = 0; i < v->probes.count; i++)
     CDEM_TRY(check_probe(cases, &v->probes.item[i], fault));
-  for (int64_t i = 0; i < v->results.count; i++) {
-    const cdem_case_key_result *result = &v->results.item[i];
-    if (!isnan(result->tolerance) && isnan(result->reference))
-      return cdem_case_fail(cases, cdem_case_named_key(key, "results", result->name, "tolerance"),
-                            CDEM_INPUT, fault, "'tolerance' needs 'reference' beside it");
-  }
+  for (int64_t i = 0; i < v->results.count; i++)
+    CDEM_TRY(check_result(cases, &v->results.item[i], fault));
   if (v->stop_when != NULL && isnan(v->stop_below))
     return cdem_case_fail(cases, "stop_when", CDEM_INPUT, fault,
                           "'stop_when' needs 'stop_below' beside it");

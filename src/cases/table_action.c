@@ -92,7 +92,7 @@ const cdem_case_section cdem_section_plates =
 #define INITIAL(member) AT(cdem_case_initial, member)
 static const cdem_case_key initial[] = {
     {INITIAL(groups), .kind = CDEM_KEY_TEXTS, .otherwise = "everywhere",
-     .help = "Groups that start with this velocity.", .example = "projectile"},
+     .help = "Groups of the mesh that start with this velocity.", .example = "projectile"},
     {INITIAL(velocity), .kind = CDEM_KEY_VECTOR, .dimension = VELOCITY, .length = 3, .fewest = 2,
      DOMAIN, .help = "Velocity along x, y (and z).", .example = "[10 m/s, 0]"},
     {INITIAL(spin), .kind = CDEM_KEY_VECTOR, .dimension = RATE, .length = 3, .fewest = 3, DOMAIN,
@@ -106,21 +106,36 @@ const cdem_case_section cdem_section_initial =
 
 /* ---- probes ---- */
 
-static const char *const quantities[] = {"displacement", "velocity", "force", "stress", NULL};
+static const char *const quantities[] = {
+    "displacement", "velocity",     "force",         "stress", "count",        "mass",
+    "solid",        "coordination", "surface_angle", "center", "stress_ratio", NULL};
+static const char *const surfaces[] = {"heap", "cone", "slope", NULL};
 static const char *const components[] = {"x",  "y",  "z",  "rotation", "xx",        "yy",
                                          "zz", "yz", "xz", "xy",       "magnitude", NULL};
 
 #define PROBE(member) AT(cdem_case_probe, member)
 static const cdem_case_key probes[] = {
-    {PROBE(group), .kind = CDEM_KEY_TEXT, .required = true, .help = "Group that is watched.",
-     .example = "tip"},
+    {PROBE(group), .kind = CDEM_KEY_TEXT, .otherwise = "required by a body",
+     .help = "Group of the mesh that is watched.", .example = "tip"},
+    {PROBE(region), .kind = CDEM_KEY_SECTION, .section = &cdem_section_region,
+     .otherwise = "all grains", .help = "Box of the grains that are watched.",
+     .example = "{low: [0, 0], high: [1 m, 0.5 m]}"},
     {PROBE(quantity), .kind = CDEM_KEY_CHOICE, .choice = quantities,
      .help =
-         "What is watched: the mean displacement or velocity of the nodes, the sum of the forces "
-         "that hold or push them, the mean stress of the elements.",
+         "What is watched. A body: the mean displacement or velocity of the nodes, the sum of the "
+         "forces that hold or push them, the mean stress of the elements. Grains: count, mass, "
+         "mean velocity, center (of mass), solid fraction, stress, coordination number and stress "
+         "ratio (2-D: (s1 - s3)/(s1 + s3), the sine of the mobilised friction angle; 3-D: q/p) in "
+         "the region, or the angle of the free surface.",
      .example = "force"},
-    {PROBE(component), .kind = CDEM_KEY_CHOICE, .choice = components, .required = true,
-     .help = "Its component; xx .. xy of stress, the others of the rest.", .example = "y"},
+    {PROBE(component), .kind = CDEM_KEY_CHOICE, .choice = components,
+     .otherwise = "required by what has components",
+     .help = "Its component; xx .. xy of stress, the others of vectors.", .example = "y"},
+    {PROBE(surface), .kind = CDEM_KEY_CHOICE, .choice = surfaces,
+     .help =
+         "How surface_angle looks at the grains: the two flanks of a heap along x, a cone about "
+         "the upright axis through the region, one slope over the whole range.",
+     .example = "slope"},
 };
 const cdem_case_section cdem_section_probes =
     SECTION("probes", cdem_case_probe, probes, .named = true, .help = "One column of history.csv.");
@@ -149,18 +164,32 @@ const cdem_case_section cdem_section_curves = SECTION(
 
 /* ---- results ---- */
 
-static const char *const takes[] = {"max", "min", "last", "mean", NULL};
+static const char *const takes[] = {"max", "min", "last", "mean", "slope", NULL};
 
 #define RESULT(member) AT(cdem_case_key_result, member)
 static const cdem_case_key results[] = {
     {RESULT(of), .kind = CDEM_KEY_TEXT, .required = true, .help = "Column of history.csv.",
      .example = "top_force"},
     {RESULT(take), .kind = CDEM_KEY_CHOICE, .choice = takes,
-     .help = "What of the column: its largest, smallest, last or mean value.", .example = "min"},
+     .help = "What of the column: its largest, smallest, last or mean value, or the slope of its "
+             "best line against time.",
+     .example = "min"},
+    {RESULT(from), .kind = CDEM_KEY_NUMBER, .dimension = TIME, .fallback = NAN, NOT_NEGATIVE,
+     DOMAIN, .otherwise = "the start", .help = "Rows of history.csv before this time do not count.",
+     .example = "0.5 s"},
+    {RESULT(to), .kind = CDEM_KEY_NUMBER, .dimension = TIME, .fallback = NAN, POSITIVE, DOMAIN,
+     .otherwise = "the end", .help = "Rows of history.csv after this time do not count.",
+     .example = "1 s"},
     {RESULT(factor), .kind = CDEM_KEY_NUMBER, .fallback = 1,
      .help = "Multiplies the column before.", .example = "-1"},
     {RESULT(reference), .kind = CDEM_KEY_NUMBER, .fallback = NAN, .otherwise = "none",
      .help = "Expected value in SI units.", .example = "157.1e3"},
+    {RESULT(against), .kind = CDEM_KEY_TEXTS, .otherwise = "reference",
+     .help = "In place of a reference: columns of history.csv whose sum, taken alike, is expected; "
+             "factor does not multiply it.",
+     .example = "[friction, damping]"},
+    {RESULT(against_factor), .kind = CDEM_KEY_NUMBER, .fallback = 1,
+     .help = "Multiplies that sum before.", .example = "-9.81"},
     {RESULT(tolerance), .kind = CDEM_KEY_NUMBER, .fallback = NAN, POSITIVE,
      .otherwise = "none: the difference is reported only",
      .help = "Largest relative difference from the reference.", .example = "0.05"},

@@ -9,7 +9,7 @@ static const char *const shapes[] = {"none", "tri3",   "quad4", "tet4",
 #define MESH(member) AT(cdem_case_mesh, member)
 static const cdem_case_key mesh[] = {
     {MESH(file), .kind = CDEM_KEY_TEXT, .otherwise = "a grid, see shape",
-     .help = "Mesh file (.msh .geo .step .stp .inp), relative to the case file.",
+     .help = "Mesh file (.msh .geo .step .stp .inp .stl), relative to the case file.",
      .example = "plate.geo"},
     {MESH(parameters), .kind = CDEM_KEY_NUMBERS, .otherwise = "as the file says",
      .help = "Numbers that a .geo file declares by DefineConstant: name to plain number.",

@@ -19,7 +19,7 @@ static const cdem_case_key keys[] = {
              "3-D.",
      .example = "stress"},
     {TOP(thickness), .kind = CDEM_KEY_NUMBER, .dimension = LENGTH, .fallback = 1, POSITIVE, DOMAIN,
-     .help = "Thickness of a 2-D body. No meaning in 3-D.", .example = "50 mm"},
+     .help = "Thickness of a 2-D body, or of discs. No meaning in 3-D.", .example = "50 mm"},
     {TOP(end), .kind = CDEM_KEY_NUMBER, .dimension = TIME, .fallback = NAN, POSITIVE, DOMAIN,
      .otherwise = "required by a dynamic run; static: loads are taken at 0 s",
      .help = "Time at which the run ends; in a static run the time at which loads and supports are "
@@ -29,7 +29,8 @@ static const cdem_case_key keys[] = {
      .otherwise = "automatic: safety times the largest stable step",
      .help = "Time step. A step that is not stable is an error.", .example = "0.1 us"},
     {TOP(safety), .kind = CDEM_KEY_NUMBER, .fallback = 0.8, .least = 0, .most = 1, .above = true,
-     .help = "Fraction of the largest stable step that the automatic step takes.",
+     .help = "Fraction of the largest stable step that the automatic step takes; grains, whose "
+             "contacts begin and end, take 0.1 where nothing is given.",
      .example = "0.5"},
     {TOP(mass_damping), .kind = CDEM_KEY_NUMBER, .dimension = RATE, NOT_NEGATIVE, GRAIN,
      .help = "Damping force per mass and velocity, 1/s: c = mass_damping times the mass.",
@@ -40,7 +41,8 @@ static const cdem_case_key keys[] = {
      .example = "0.7"},
     {TOP(tolerance), .kind = CDEM_KEY_NUMBER, .fallback = 1e-5, .least = 0, .most = 1,
      .above = true,
-     .help = "A relaxation ends when the ratio of unbalanced to mean nodal force is below it.",
+     .help = "A relaxation ends when the ratio of the largest unbalanced to the mean nodal force "
+             "(grains: to the mean contact force) is below it.",
      .example = "1e-6"},
     {TOP(most_steps), .kind = CDEM_KEY_INTEGER, .fallback = 1000000, AT_LEAST(1),
      .help = "A relaxation that takes more steps than this ends with an error.",
@@ -69,11 +71,13 @@ static const cdem_case_key keys[] = {
      .help = "The run ends when the size of the column stop_when has fallen below this fraction of "
              "its peak.",
      .example = "0.3"},
-    {TOP(mesh), .kind = CDEM_KEY_SECTION, .section = &cdem_section_mesh, .required = true,
-     .help = "The mesh: a file, or a structured grid. A plain text is the file.",
+    {TOP(mesh), .kind = CDEM_KEY_SECTION, .section = &cdem_section_mesh,
+     .otherwise = "required by a body",
+     .help = "The mesh of a body: a file, or a structured grid. A plain text is the file.",
      .example = "plate.geo"},
-    {TOP(materials), .kind = CDEM_KEY_NAMED, .section = &cdem_section_materials, .required = true,
-     .help = "Materials by name, and the groups that they fill.",
+    {TOP(materials), .kind = CDEM_KEY_NAMED, .section = &cdem_section_materials,
+     .otherwise = "required by a body",
+     .help = "Materials of a body by name, and the groups that they fill.",
      .example = "{rock: {young: 30 GPa, poisson: 0.3, density: 2700 kg/m3}}"},
     {TOP(blocks), .kind = CDEM_KEY_SECTION, .section = &cdem_section_blocks,
      .otherwise = "each connected part of the mesh is one block",
@@ -94,6 +98,29 @@ static const cdem_case_key keys[] = {
     {TOP(plates), .kind = CDEM_KEY_NAMED, .section = &cdem_section_plates, .otherwise = "none",
      .help = "Rigid plates that push the surface and report their force.",
      .example = "{press: {point: [0, 0.1], normal: [0, -1], velocity: {y: -20 mm/s}}}"},
+    {TOP(grains), .kind = CDEM_KEY_SECTION, .section = &cdem_section_grains,
+     .otherwise = "required by a run of grains",
+     .help = "Grains in place of a body: discs or spheres, where they are and how they touch.",
+     .example =
+         "{dimension: 2, packing: {kind: hexagonal, low: [0, 0], high: [1, 1], radius: 0.05}, "
+         "materials: {sand: {density: 2600 kg/m3}}}"},
+    {TOP(contacts), .kind = CDEM_KEY_LIST, .section = &cdem_section_contacts,
+     .otherwise = "required by a run of grains",
+     .help = "Numbers of the contact law of grains; the first entry that fits a pair of materials "
+             "is its law.",
+     .example =
+         "[{normal_stiffness: 1e6 N/m, shear_ratio: 0.2857, friction: 0.5, restitution: 0.8}]"},
+    {TOP(walls), .kind = CDEM_KEY_NAMED, .section = &cdem_section_walls, .otherwise = "none",
+     .help = "Rigid walls that grains touch, by name.",
+     .example = "{floor: {shape: plane, center: [0, 0], normal: [0, 1]}}"},
+    {TOP(bonds), .kind = CDEM_KEY_LIST, .section = &cdem_section_bonds, .otherwise = "none",
+     .help =
+         "Grains that are held together from the start; the first entry that fits a pair is its "
+         "law.",
+     .example = "[{normal_stiffness: 1e6 N/m, shear_stiffness: 3e5 N/m, tension: 10 N}]"},
+    {TOP(cell), .kind = CDEM_KEY_SECTION, .section = &cdem_section_cell, .otherwise = "none",
+     .help = "The box in which grains are periodic, and how it deforms.",
+     .example = "{low: [0, 0], size: [1, 1], periodic: [x, y]}"},
     {TOP(initial), .kind = CDEM_KEY_LIST, .section = &cdem_section_initial, .otherwise = "at rest",
      .help = "Velocities at the start.",
      .example = "[{groups: projectile, velocity: [10 m/s, 0]}]"},

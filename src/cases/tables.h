@@ -32,6 +32,10 @@
   { -1, -2, 1 }
 #define BEDDING /* Pa/m */                                                                         \
   { -2, -2, 1 }
+#define STIFFNESS /* N/m */                                                                        \
+  { 0, -2, 1 }
+#define TURNING_STIFFNESS /* N m/rad */                                                            \
+  { 2, -2, 1 }
 #define TOUGHNESS /* J/m^2 */                                                                      \
   { 0, -2, 1 }
 
@@ -53,6 +57,7 @@
 extern const cdem_case_section cdem_section_mesh, cdem_section_materials, cdem_section_blocks,
     cdem_section_interfaces, cdem_section_contact, cdem_section_supports, cdem_section_loads,
     cdem_section_plates, cdem_section_initial, cdem_section_probes, cdem_section_curves,
-    cdem_section_results;
+    cdem_section_results, cdem_section_grains, cdem_section_contacts, cdem_section_walls,
+    cdem_section_bonds, cdem_section_cell, cdem_section_region;
 
 #endif

@@ -1,64 +1,123 @@
 /* Time: steps, with rows, frames and checkpoints where they are due.
  *
  * What is due is decided by step and time alone, never by the clock (a checkpoint changes nothing),
- * so that a run broken and continued goes through the same states as an unbroken one.
+ * so that a run broken and continued goes through the same states as an unbroken one. Engines for
+ * which many steps at once are faster get as many as there are to the next thing due, but no more
+ * than a fraction of a second is worth, so that a wish to stop is heard.
  */
 #include "run/output.h"
 
 #include <math.h>
 #include <stdio.h>
 
-enum {
-  LOOK_EVERY = 20, /* steps between two looks at the balance of a relaxation */
-  ROW_EVERY = 100, /* steps between two rows of a relaxation that names no time */
-  REPORT_EVERY = 8 /* steps between two reports of progress */
-};
+enum { REPORT_EVERY = 8 }; /* steps between two reports of progress, one at a time */
 static const double wall_between_checkpoints = 300.0; /* s */
+static const double wall_of_stride = 0.1;             /* s */
 
 /* Multiples of `every` that the time has reached, to half a step. */
-static int64_t reached(const cdem_solver *solver, double every) {
-  double times = floor((solver->time + 0.5 * solver->step) / every);
+static int64_t reached(const cdem_run_now *now, double every) {
+  double times = floor((now->time + 0.5 * now->step) / every);
   return times < 9e18 ? (int64_t)times : INT64_MAX - 1;
 }
 
 /* Is one due? Then *next is the one after. */
-static bool due(const cdem_solver *solver, double every, int64_t *next) {
-  int64_t now = reached(solver, every);
-  if (now < *next)
+static bool due(const cdem_run_now *now, double every, int64_t *next) {
+  int64_t count = reached(now, every);
+  if (count < *next)
     return false;
-  *next = now + 1;
+  *next = count + 1;
   return true;
 }
 
-static bool row_is_due(cdem_run_output *output) {
-  const cdem_case_values *values = cdem_run_values(output->setup);
-  const cdem_solver *solver = &output->setup->solver;
-  if (values->analysis == CDEM_ANALYSIS_RELAXATION && isnan(values->history_every))
-    return solver->steps % ROW_EVERY == 0;
-  return due(solver, values->history_every, &output->counters.next_row);
+/* ---- strides ---- */
+
+/* Steps that can be taken without missing a time; at least one. Rounding cannot make it one too
+ * many: the step at which something is due is the floor itself or the one after. */
+static int64_t steps_until(const cdem_run_now *now, double time) {
+  double steps = floor((time - now->time) / now->step - 0.5);
+  return steps < 1.0 ? 1 : steps < 1e15 ? (int64_t)steps : (int64_t)1e15;
 }
 
-static bool frame_is_due(cdem_run_output *output) {
+static int64_t least_of(int64_t a, int64_t b) {
+  return a < b ? a : b;
+}
+
+static int64_t until_multiple(int64_t steps, int64_t every) {
+  return every - steps % every;
+}
+
+static int64_t stride(const cdem_run_output *output) {
+  const cdem_run_setup *setup = output->setup;
+  const cdem_case_values *v = cdem_run_values(setup);
+  const cdem_run_counters *c = &output->counters;
+  const cdem_run_now now = cdem_run_where(setup);
+  if (!setup->engine->strides)
+    return 1;
+  int64_t steps = output->stride;
+  if (v->analysis == CDEM_ANALYSIS_RELAXATION) {
+    steps = least_of(steps, until_multiple(now.steps, setup->engine->look_every));
+    steps = least_of(steps, v->most_steps - now.steps);
+    if (isnan(v->history_every))
+      steps = least_of(steps, until_multiple(now.steps, setup->engine->row_every));
+  } else {
+    steps = least_of(steps, steps_until(&now, v->end));
+  }
+  if (!isnan(v->history_every))
+    steps = least_of(steps, steps_until(&now, v->history_every * (double)c->next_row));
+  if (!isnan(v->frame_every))
+    steps = least_of(steps, steps_until(&now, v->frame_every * (double)c->next_frame));
+  if (!isnan(v->checkpoint_every))
+    steps = least_of(steps, steps_until(&now, v->checkpoint_every * (double)c->next_checkpoint));
+  return steps;
+}
+
+/* The next stride by the clock: it decides how often we look, not what we see. */
+static cdem_status advance(cdem_run_output *output, cdem_fault *fault) {
+  int64_t steps = stride(output);
+  double begun = cdem_run_clock();
+  CDEM_TRY(output->setup->engine->advance(output->setup, steps, fault));
+  double wall = cdem_run_clock() - begun;
+  if (wall > 2.0 * wall_of_stride && output->stride > 1)
+    output->stride /= 2;
+  else if (wall < 0.5 * wall_of_stride && steps == output->stride && steps < 1 << 20)
+    output->stride *= 2;
+  return CDEM_OK;
+}
+
+/* ---- what is due ---- */
+
+static bool row_is_due(cdem_run_output *output, const cdem_run_now *now) {
+  const cdem_case_values *values = cdem_run_values(output->setup);
+  if (values->analysis == CDEM_ANALYSIS_RELAXATION && isnan(values->history_every))
+    return now->steps % output->setup->engine->row_every == 0;
+  return due(now, values->history_every, &output->counters.next_row);
+}
+
+static bool frame_is_due(cdem_run_output *output, const cdem_run_now *now) {
   const cdem_case_values *values = cdem_run_values(output->setup);
   if (values->analysis == CDEM_ANALYSIS_RELAXATION && isnan(values->frame_every))
     return false;
-  return due(&output->setup->solver, values->frame_every, &output->counters.next_frame);
+  return due(now, values->frame_every, &output->counters.next_frame);
 }
 
-static bool checkpoint_is_due(cdem_run_output *output) {
+static bool checkpoint_is_due(cdem_run_output *output, const cdem_run_now *now) {
   const cdem_case_values *values = cdem_run_values(output->setup);
   if (!isnan(values->checkpoint_every))
-    return due(&output->setup->solver, values->checkpoint_every, &output->counters.next_checkpoint);
+    return due(now, values->checkpoint_every, &output->counters.next_checkpoint);
   return cdem_run_clock() - output->saved > wall_between_checkpoints;
 }
 
 /* Rows, frames and checkpoints of this step. */
 static cdem_status write_due(cdem_run_output *output, bool *stop, cdem_fault *fault) {
-  if (row_is_due(output))
+  const cdem_run_now now = cdem_run_where(output->setup);
+  if (row_is_due(output, &now)) {
+    if (output->setup->engine->look != NULL)
+      CDEM_TRY(output->setup->engine->look(output->setup, fault));
     CDEM_TRY(cdem_run_output_row(output, stop, fault));
-  if (frame_is_due(output))
+  }
+  if (frame_is_due(output, &now))
     CDEM_TRY(cdem_run_output_frame(output, fault));
-  if (checkpoint_is_due(output))
+  if (checkpoint_is_due(output, &now))
     CDEM_TRY(cdem_run_output_checkpoint(output, fault));
   return CDEM_OK;
 }
@@ -72,65 +131,70 @@ static cdem_status keep(cdem_run_output *output, cdem_status status) {
 }
 
 static cdem_status interrupted(cdem_run_output *output, cdem_fault *fault) {
-  const cdem_solver *solver = &output->setup->solver;
+  const cdem_run_now now = cdem_run_where(output->setup);
   CDEM_TRY(cdem_run_output_checkpoint(output, fault));
   return cdem_fail(fault, CDEM_INTERRUPTED,
                    "interrupted at step %lld, t = %.6g s; continue with `cdem run --resume %s`",
-                   (long long)solver->steps, solver->time, output->options->folder);
+                   (long long)now.steps, now.time, output->options->folder);
 }
 
 static cdem_status report(cdem_run_output *output, cdem_fault *fault) {
   const cdem_case_values *values = cdem_run_values(output->setup);
-  const cdem_solver *solver = &output->setup->solver;
+  const cdem_run_now now = cdem_run_where(output->setup);
   bool relaxing = values->analysis == CDEM_ANALYSIS_RELAXATION;
-  double left = relaxing ? 0.0 : ceil((values->end - solver->time) / solver->step);
-  if (solver->steps % REPORT_EVERY != 0)
+  double left = relaxing ? 0.0 : ceil((values->end - now.time) / now.step);
+  if (!output->setup->engine->strides && now.steps % REPORT_EVERY != 0)
     return CDEM_OK;
   cdem_status status = cdem_progress_report(
-      output->options->progress, relaxing ? "relaxing, steps" : "running, steps", solver->steps,
-      relaxing ? 0 : solver->steps + (int64_t)fmax(left, 0.0), NULL);
+      output->options->progress, relaxing ? "relaxing, steps" : "running, steps", now.steps,
+      relaxing ? 0 : now.steps + (int64_t)fmax(left, 0.0), NULL);
   return status == CDEM_INTERRUPTED ? interrupted(output, fault) : status;
 }
 
+/* ---- the three analyses ---- */
+
 static cdem_status run_dynamic(cdem_run_output *output, cdem_fault *fault) {
-  cdem_solver *solver = &output->setup->solver;
   double end = cdem_run_values(output->setup)->end;
+  cdem_run_now now = cdem_run_where(output->setup);
   bool stop = false;
-  while (!stop && solver->time + 0.5 * solver->step < end) {
+  while (!stop && now.time + 0.5 * now.step < end) {
     CDEM_TRY(report(output, fault));
-    cdem_status status = cdem_solver_step(solver, fault);
+    cdem_status status = advance(output, fault);
     if (status != CDEM_OK)
       return keep(output, status);
     CDEM_TRY(write_due(output, &stop, fault));
+    now = cdem_run_where(output->setup);
   }
   return CDEM_OK;
 }
 
 static cdem_status run_relaxation(cdem_run_output *output, cdem_fault *fault) {
-  cdem_solver *solver = &output->setup->solver;
-  const cdem_case_values *values = cdem_run_values(output->setup);
+  const cdem_run_setup *setup = output->setup;
+  const cdem_case_values *values = cdem_run_values(setup);
+  cdem_run_now now = cdem_run_where(setup);
   bool stop = false;
-  double ratio = INFINITY;
-  while (!stop && solver->steps < values->most_steps) {
+  while (!stop && now.steps < values->most_steps) {
     CDEM_TRY(report(output, fault));
-    cdem_status status = cdem_solver_step(solver, fault);
+    cdem_status status = advance(output, fault);
     if (status != CDEM_OK)
       return keep(output, status);
     CDEM_TRY(write_due(output, &stop, fault));
-    if (solver->steps % LOOK_EVERY == 0 &&
-        (ratio = cdem_solver_unbalanced(solver)) < values->tolerance)
+    now = cdem_run_where(setup);
+    if (now.steps % setup->engine->look_every == 0 &&
+        setup->engine->unbalanced(setup) < values->tolerance)
       return CDEM_OK;
   }
   if (stop)
     return CDEM_OK;
-  ratio = cdem_solver_unbalanced(solver);
+  double ratio = setup->engine->unbalanced(setup);
   keep(output, CDEM_OK);
   CDEM_TRY(cdem_run_output_checkpoint(output, fault));
-  return cdem_case_fail(&output->setup->cases, "most_steps", CDEM_NUMERIC, fault,
+  return cdem_case_fail(&setup->cases, "most_steps", CDEM_NUMERIC, fault,
                         "the forces are not balanced after %lld steps: ratio %.3g, wanted %.3g; "
-                        "allow more steps or a larger tolerance, or look for a body that no "
-                        "support holds",
-                        (long long)solver->steps, ratio, values->tolerance);
+                        "allow more steps or a larger tolerance, or look for %s",
+                        (long long)now.steps, ratio, values->tolerance,
+                        setup->engine == &cdem_run_engine_grains ? "grains that nothing holds"
+                                                                 : "a body that no support holds");
 }
 
 cdem_status cdem_run_loop(cdem_run_output *output, cdem_fault *fault) {

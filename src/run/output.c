@@ -45,15 +45,14 @@ static void counters_in(const int64_t counts[COUNTS], cdem_run_counters *c) {
 static cdem_status fill_state(const cdem_run_output *output, cdem_state *state, cdem_fault *fault) {
   const cdem_run_setup *setup = output->setup;
   int64_t counts[COUNTS];
-  const int64_t sums[SUMS] = {(int64_t)setup->case_sum, (int64_t)setup->mesh_sum,
+  const int64_t sums[SUMS] = {(int64_t)setup->case_sum, (int64_t)setup->input_sum,
                               (int64_t)setup->kept_sum};
   const double reals[2] = {output->counters.peak, cdem_run_output_wall(output)};
   counters_out(&output->counters, counts);
-  CDEM_TRY(cdem_mesh_to_state(&setup->mesh, "mesh", state, fault));
   CDEM_TRY(cdem_state_add_copy(state, "run/counts", CDEM_ARRAY_INT64, COUNTS, counts, fault));
   CDEM_TRY(cdem_state_add_copy(state, "run/sums", CDEM_ARRAY_INT64, SUMS, sums, fault));
   CDEM_TRY(cdem_state_add_copy(state, "run/reals", CDEM_ARRAY_REAL, 2, reals, fault));
-  return cdem_solver_save(&setup->solver, state, fault);
+  return setup->engine->save(setup, state, fault);
 }
 
 cdem_status cdem_run_output_checkpoint(cdem_run_output *output, cdem_fault *fault) {
@@ -90,7 +89,7 @@ static cdem_status restore(cdem_run_output *output, const cdem_state *state, cde
 /* Has the size of the column that may end the run fallen below the fraction of its peak? */
 static bool fallen(cdem_run_output *output) {
   const cdem_case_values *values = cdem_run_values(output->setup);
-  const cdem_table *table = &output->history.table;
+  const cdem_table *table = &output->history;
   if (values->stop_when == NULL)
     return false;
   const cdem_value *value =
@@ -103,12 +102,13 @@ static bool fallen(cdem_run_output *output) {
 
 cdem_status cdem_run_output_row(cdem_run_output *output, bool *stop, cdem_fault *fault) {
   cdem_run_counters *c = &output->counters;
-  if (c->last_row_step == output->setup->solver.steps)
+  int64_t steps = cdem_run_where(output->setup).steps;
+  if (c->last_row_step == steps)
     return CDEM_OK;
   CDEM_TRY(cdem_run_history_row(output->setup, &output->history, fault));
-  CDEM_TRY(cdem_history_append(output->rows, &output->history.table, fault));
+  CDEM_TRY(cdem_history_append(output->rows, &output->history, fault));
   c->rows++;
-  c->last_row_step = output->setup->solver.steps;
+  c->last_row_step = steps;
   bool ended = fallen(output);
   if (stop != NULL)
     *stop = *stop || ended;
@@ -117,12 +117,13 @@ cdem_status cdem_run_output_row(cdem_run_output *output, bool *stop, cdem_fault 
 
 cdem_status cdem_run_output_frame(cdem_run_output *output, cdem_fault *fault) {
   cdem_run_counters *c = &output->counters;
-  if (output->frames == NULL || c->last_frame_step == output->setup->solver.steps)
+  int64_t steps = cdem_run_where(output->setup).steps;
+  if (output->frames == NULL || c->last_frame_step == steps)
     return CDEM_OK;
   cdem_frame_sink sink = cdem_frame_writer_sink(output->frames);
-  CDEM_TRY(cdem_solver_frames(&output->setup->solver, c->frames, &sink, fault));
+  CDEM_TRY(output->setup->engine->frames(output->setup, c->frames, &sink, fault));
   c->frames++;
-  c->last_frame_step = output->setup->solver.steps;
+  c->last_frame_step = steps;
   return CDEM_OK;
 }
 
@@ -133,8 +134,7 @@ static cdem_status open_files(cdem_run_output *output, cdem_fault *fault) {
   char path[4096];
   CDEM_TRY(cdem_run_history_init(output->setup, &output->history, fault));
   CDEM_TRY(cdem_history_create(cdem_run_path(path, options->folder, "history.csv"),
-                               &output->history.table, output->counters.rows, &output->rows,
-                               fault));
+                               &output->history, output->counters.rows, &output->rows, fault));
   if (options->frames)
     CDEM_TRY(
         cdem_frame_writer_create(options->folder, output->counters.frames, &output->frames, fault));
@@ -151,6 +151,7 @@ cdem_status cdem_run_output_open(cdem_run_setup *setup, const cdem_state *checkp
                                  cdem_run_output *output, cdem_fault *fault) {
   output->setup = setup;
   output->options = setup->options;
+  output->stride = 1;
   output->started = output->saved = cdem_run_clock();
   output->counters = (cdem_run_counters){.next_row = 1,
                                          .next_frame = 1,
@@ -170,6 +171,5 @@ cdem_status cdem_run_output_open(cdem_run_setup *setup, const cdem_state *checkp
 void cdem_run_output_close(cdem_run_output *output) {
   cdem_history_destroy(&output->rows);
   cdem_frame_writer_destroy(&output->frames);
-  if (output->setup != NULL)
-    cdem_run_history_release(&output->history, output->setup);
+  cdem_table_release(&output->history);
 }

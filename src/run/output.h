@@ -17,10 +17,11 @@ typedef struct {
 typedef struct {
   cdem_run_setup *setup;
   const cdem_run_options *options;
-  cdem_run_history history;
+  cdem_table history; /* columns, and at most one row */
   cdem_history_writer *rows;
   cdem_frame_writer *frames; /* NULL: none are written */
   cdem_run_counters counters;
+  int64_t stride;        /* steps at once that the clock allows at present */
   double started, saved; /* s, monotonic clock */
   double ended;          /* likewise, once the loop is over; 0 before */
 } cdem_run_output;

@@ -138,12 +138,12 @@ static cdem_status step_and_finish(cdem_run_setup *setup, const cdem_state *chec
 static cdem_status check_only(const cdem_run_options *options, cdem_run_summary *summary,
                               cdem_fault *fault) {
   cdem_run_setup setup = {0};
-  cdem_run_history history = {0};
+  cdem_table history = {0};
   CDEM_TRY(cdem_run_setup_init(options, NULL, &setup, fault));
   cdem_status status = cdem_run_history_init(&setup, &history, fault);
   if (status == CDEM_OK)
     cdem_run_summary_sizes(&setup, summary);
-  cdem_run_history_release(&history, &setup);
+  cdem_table_release(&history);
   cdem_run_setup_release(&setup);
   return status;
 }
@@ -152,11 +152,11 @@ static cdem_status check_only(const cdem_run_options *options, cdem_run_summary 
 static cdem_status run_new(const cdem_run_options *options, cdem_run_summary *summary,
                            cdem_fault *fault) {
   cdem_run_setup setup = {0};
-  cdem_run_history history = {0};
+  cdem_table history = {0};
   cdem_folder_lock *lock = NULL;
   CDEM_TRY(cdem_run_setup_init(options, NULL, &setup, fault));
   cdem_status status = cdem_run_history_init(&setup, &history, fault);
-  cdem_run_history_release(&history, &setup);
+  cdem_table_release(&history);
   if (status == CDEM_OK)
     status = check_owner(options, fault);
   if (status == CDEM_OK)
@@ -189,7 +189,7 @@ static cdem_status run_on(const cdem_run_options *options, cdem_run_summary *sum
   if (status == CDEM_OK)
     status = cdem_clear_parts(options->folder, fault);
   if (status == CDEM_OK)
-    status = cdem_solver_restore(&setup.solver, &checkpoint, fault);
+    status = setup.engine->restore(&setup, &checkpoint, fault);
   if (status == CDEM_OK)
     status = step_and_finish(&setup, &checkpoint, summary, fault);
   cdem_run_setup_release(&setup);

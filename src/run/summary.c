@@ -10,7 +10,7 @@
 #include <string.h>
 
 enum { NAME, VALUE, UNIT, REFERENCE, DIFFERENCE }; /* columns of summary->keys */
-enum { MAX, MIN, LAST, MEAN };                     /* the choices of `take` */
+enum { MAX, MIN, LAST, MEAN, SLOPE };              /* the choices of `take` */
 
 void cdem_run_summary_release(cdem_run_summary *summary) {
   free(summary->title);
@@ -19,34 +19,77 @@ void cdem_run_summary_release(cdem_run_summary *summary) {
 }
 
 void cdem_run_summary_sizes(const cdem_run_setup *setup, cdem_run_summary *summary) {
-  summary->nodes = setup->body.nodes;
-  summary->unknowns = (int64_t)setup->body.nodes * setup->body.dofs;
-  summary->elements = setup->model.cells;
-  summary->distinct = setup->body.distinct;
-  summary->blocks = setup->blocks.blocks;
-  summary->interfaces = setup->blocks.pairs;
+  setup->engine->sizes(setup, summary);
   bool steps = cdem_run_values(setup)->analysis != CDEM_ANALYSIS_STATIC;
-  summary->step = steps ? setup->solver.step : 0.0;
+  summary->step = steps ? cdem_run_where(setup).step : 0.0;
   memcpy(summary->limiter, setup->limiter, sizeof summary->limiter);
 }
 
 /* ---- key results ---- */
 
-/* max, min, last or mean over the rows that have a value; NaN when none has. */
-static double taken(const cdem_table *history, int column, int take, double factor) {
+/* Sum of columns in a row; NaN where one has no value. */
+static double sum_of(const cdem_table *history, int64_t row, int columns, const int *column) {
+  double sum = 0.0;
+  for (int c = 0; c < columns; c++) {
+    const cdem_value *value = cdem_table_at(history, row, column[c]);
+    sum += value->absent ? NAN : value->real;
+  }
+  return sum;
+}
+
+/* The slope of the line that fits best over time; sums about the first row, whose digits would
+ * else be lost in the squares. */
+typedef struct {
+  double t0, v0, t, v, tt, tv;
+} line;
+
+static void line_add(line *l, bool first, double time, double value) {
+  if (first)
+    *l = (line){.t0 = time, .v0 = value};
+  double t = time - l->t0, v = value - l->v0;
+  l->t += t;
+  l->v += v;
+  l->tt += t * t;
+  l->tv += t * v;
+}
+
+/* max, min, last, mean or slope over the rows that count and have a value; NaN when none has. */
+static double taken(const cdem_table *history, const cdem_case_key_result *result, int columns,
+                    const int *column, double factor) {
   double found = NAN, sum = 0.0;
+  int take = result->take, clock = cdem_table_find(history, "time");
   int64_t count = 0;
+  line l = {0};
   for (int64_t r = 0; r < history->rows; r++) {
-    const cdem_value *value = cdem_table_at(history, r, column);
-    if (value->absent)
+    double v = factor * sum_of(history, r, columns, column),
+           time = clock >= 0 ? cdem_table_at(history, r, clock)->real : 0.0;
+    if (isnan(v) || time < result->from || time > result->to)
       continue;
-    double v = factor * value->real;
     bool first = count++ == 0;
     sum += v;
+    line_add(&l, first, time, v);
     if (first || take == LAST || (take == MAX && v > found) || (take == MIN && v < found))
       found = v;
   }
-  return take == MEAN && count > 0 ? sum / (double)count : found;
+  double n = (double)count;
+  if (take == SLOPE)
+    return (n * l.tv - l.t * l.v) / (n * l.tt - l.t * l.t); /* NaN below two rows */
+  return take == MEAN && count > 0 ? sum / n : found;
+}
+
+/* The expected value; NaN: none. */
+static cdem_status expected(const cdem_case_key_result *result, const cdem_table *history,
+                            double *reference, cdem_fault *fault) {
+  int columns = (int)result->against.count, *column = NULL;
+  *reference = result->reference;
+  if (columns == 0)
+    return CDEM_OK;
+  CDEM_NEW(column, columns, fault);
+  for (int c = 0; c < columns; c++)
+    column[c] = cdem_run_history_find(history, result->against.item[c]);
+  *reference = taken(history, result, columns, column, result->against_factor);
+  free(column);
+  return CDEM_OK;
 }
 
 static double difference(double value, double reference) {
@@ -57,17 +100,21 @@ static cdem_status add_key(const cdem_case_key_result *result, const cdem_table 
                            cdem_run_summary *summary, cdem_fault *fault) {
   cdem_table *keys = &summary->keys;
   int column = cdem_run_history_find(history, result->of);
-  double value = taken(history, column, result->take, result->factor);
+  double value = taken(history, result, 1, &column, result->factor), reference;
+  char unit[32] = "";
+  CDEM_TRY(expected(result, history, &reference, fault));
   CDEM_TRY(cdem_table_add_row(keys, fault));
   CDEM_TRY(cdem_table_set_text(keys, NAME, result->name, fault));
   /* A factor that is more than a sign may carry a unit of its own (1/area: force to stress). */
-  bool plain = fabs(result->factor) == 1.0;
-  CDEM_TRY(cdem_table_set_text(keys, UNIT, plain ? history->column[column].unit : "", fault));
+  if (fabs(result->factor) == 1.0)
+    snprintf(unit, sizeof unit, "%.24s%s", history->column[column].unit,
+             result->take == SLOPE ? "/s" : "");
+  CDEM_TRY(cdem_table_set_text(keys, UNIT, unit, fault));
   cdem_table_set_real(keys, VALUE, value);
-  if (isnan(result->reference))
+  if (isnan(result->reference) && result->against.count == 0)
     return CDEM_OK;
-  double off = difference(value, result->reference);
-  cdem_table_set_real(keys, REFERENCE, result->reference);
+  double off = difference(value, reference);
+  cdem_table_set_real(keys, REFERENCE, reference);
   cdem_table_set_real(keys, DIFFERENCE, off);
   summary->results++;
   summary->failed += !isnan(result->tolerance) && !(fabs(off) <= result->tolerance);
@@ -80,8 +127,9 @@ static cdem_status fill(cdem_run_output *output, const cdem_table *history,
   const cdem_case_values *values = cdem_run_values(setup);
   int error = cdem_table_find(history, "energy_error");
   cdem_run_summary_sizes(setup, summary);
-  summary->steps = setup->solver.steps;
-  summary->time = setup->solver.time;
+  const cdem_run_now now = cdem_run_where(setup);
+  summary->steps = now.steps;
+  summary->time = now.time;
   summary->wall = cdem_run_output_wall(output);
   if (history->rows > 0 && !cdem_table_at(history, history->rows - 1, error)->absent)
     summary->energy_error = cdem_table_at(history, history->rows - 1, error)->real;
@@ -123,23 +171,17 @@ static void put_program(cdem_json *json, const cdem_run_output *output) {
   cdem_json_string(json, "case", options->path);
   cdem_json_open(json, "checksums", '{');
   put_sum(json, "case", setup->case_sum);
-  put_sum(json, "mesh", setup->mesh_sum);
+  put_sum(json, setup->engine == &cdem_run_engine_grains ? "grains" : "mesh", setup->input_sum);
   cdem_json_close(json, '}');
   cdem_json_integer(json, "threads", setup->threads);
 }
 
-static void put_sizes(cdem_json *json, const cdem_run_summary *summary) {
+static void put_progress(cdem_json *json, const cdem_run_summary *summary) {
   cdem_json_real(json, "wall_time", summary->wall);
   cdem_json_integer(json, "steps", summary->steps);
   cdem_json_real(json, "time", summary->time);
   cdem_json_real(json, "time_step", summary->step);
   cdem_json_string(json, "step_limited_by", summary->limiter);
-  cdem_json_integer(json, "nodes", summary->nodes);
-  cdem_json_integer(json, "unknowns", summary->unknowns);
-  cdem_json_integer(json, "elements", summary->elements);
-  cdem_json_integer(json, "distinct_elements", summary->distinct);
-  cdem_json_integer(json, "blocks", summary->blocks);
-  cdem_json_integer(json, "interfaces", summary->interfaces);
 }
 
 /* The last row of the history: energies, cracks, reactions, probes. */
@@ -169,7 +211,7 @@ static void put_results(cdem_json *json, const cdem_case_values *values,
     cdem_json_real(json, "reference", real_or_nan(keys, r, REFERENCE));
     cdem_json_real(json, "difference", off);
     cdem_json_real(json, "tolerance", tolerance);
-    if (!isnan(tolerance) && !isnan(values->results.item[r].reference))
+    if (!isnan(tolerance))
       cdem_json_boolean(json, "pass", fabs(off) <= tolerance);
     cdem_json_close(json, '}');
   }
@@ -193,7 +235,8 @@ cdem_status cdem_run_summary_write(const cdem_run_output *output, const cdem_tab
   char path[4096];
   cdem_json_open(&json, NULL, '{');
   put_program(&json, output);
-  put_sizes(&json, summary);
+  put_progress(&json, summary);
+  output->setup->engine->put_sizes(&json, summary);
   cdem_json_real(&json, "energy_error", summary->energy_error);
   put_results(&json, values, summary);
   put_last(&json, history);

@@ -134,6 +134,11 @@ static void wrong_combinations(void **state) {
        "'rotation' is a degree of freedom of Cosserat materials only"},
       {ROCK "results: {r: {of: time, tolerance: 1}}\n",
        "c.yaml:5:36: 'tolerance' needs 'reference' beside it"},
+      {ROCK "results: {r: {of: time, reference: 1, against: time}}\n",
+       "c.yaml:5:48: the expected value is 'reference' or 'against', not both"},
+      {ROCK "results: {r: {of: time, against_factor: 2}}\n", "'against_factor' needs 'against'"},
+      {ROCK "results: {r: {of: time, from: 2 ms, to: 1 ms}}\n", "'to' must be later than 'from'"},
+      {ROCK "results: {r: {of: time, from: 1 ms}}\n", "'from' must be earlier than 'end'"},
   };
   for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
     cdem_fault fault = {0};

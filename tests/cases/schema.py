@@ -90,13 +90,16 @@ wrong = [
     "{loads: [{group: a, pressure: {ramp: 1}}]}", "{loads: [{group: a, pressure: {table: [[1]]}}]}",
     "{mesh: {fil: a}}", "{mesh: [a]}", "{materials: {r: {poisson: 0.3}}}",
     "{materials: {r: {model: orthotropic, young: 1, poisson: 0}}}", "{materials: {'a b': {young: 1, poisson: 0}}}",
-    "{contact: {active: maybe}}", "{probes: {p: {group: a}}}", "{safety: 2}",
+    "{contact: {active: maybe}}", "{probes: {p: {group: a, quantity: size}}}", "{safety: 2}",
+    "{grains: {dimension: 2}}", "{grains: {dimension: 4, materials: {}}}", "{contacts: [{frction: 1}]}", "{walls: {w: {normal: [0, 1]}}}",
 ]
 right = [
     "{}", "{thickness: 5 cm}", "{thickness: '.5e-3'}", "{mass_damping: 200 1/s}", "{gravity: [0, -9.81 m/s2]}",
     "{quiet: a}", "{contact: no}", "{contact: {}}", "{supports: [{group: 7, displacement: {x: 0, rotation: 1}}]}",
     "{loads: [{group: a, pressure: {sine: 1, frequency: 5 Hz}}, {group: a, pressure: {table: [[0, 1], [1 s, 2]]}}]}",
     "{mesh: {shape: hex8, count: [1, 1, 1], size: [1, 1, 1 mm]}}",
+    "{grains: {dimension: 2, packing: {kind: loose, high: [1, 1]}, materials: {s: {density: 1}}}, contacts: [{friction: 1}]}",
+    "{walls: {w: {shape: plane, normal: [0, 1], velocity: {y: 1}}}, cell: {rate: {xx: {ramp: 1, over: 1}}}}",
     "{materials: {r: {model: cosserat, young: 1, poisson: 0, cosserat_modulus: 1, characteristic_length: 1}}}",
 ]
 

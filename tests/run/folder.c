@@ -19,15 +19,6 @@ static void write_file(const char *name, const char *text) {
   write_case(name, text);
 }
 
-static bool holds(const char *name, const char *text) {
-  char *read = NULL;
-  cdem_fault fault = {0};
-  check_ok(cdem_read_text(in_scratch(name), &read, &fault));
-  bool found = strstr(read, text) != NULL;
-  free(read);
-  return found;
-}
-
 static void run_quietly(const char *name, const char *folder, int overrides,
                         const char *const *override) {
   cdem_fault fault = {0};

@@ -52,6 +52,16 @@ static inline double key_value(const cdem_run_summary *summary, const char *name
   return NAN;
 }
 
+/* Does the file hold the text? */
+static inline bool holds(const char *name, const char *text) {
+  char *read = NULL;
+  cdem_fault fault = {0};
+  check_ok(cdem_read_text(in_scratch(name), &read, &fault));
+  bool found = strstr(read, text) != NULL;
+  free(read);
+  return found;
+}
+
 static inline bool same_files(const char *a, const char *b) {
   char command[1200];
   snprintf(command, sizeof command, "cmp -s '%s' '%s'", in_scratch(a), in_scratch(b));

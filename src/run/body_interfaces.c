@@ -4,7 +4,7 @@
  * a brick, half of a triangle's, a third of a tetrahedron's. Derived stiffnesses are rounded to
  * single precision, so that the faces of a regular mesh share one law.
  */
-#include "run/setup.h"
+#include "run/body.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -23,9 +23,9 @@ typedef struct {
   int64_t slots;
 } law_table;
 
-static cdem_status resolve(const cdem_run_setup *setup, int64_t index, entry_groups *groups,
+static cdem_status resolve(const cdem_run_body *setup, int64_t index, entry_groups *groups,
                            cdem_fault *fault) {
-  const cdem_case_values *values = cdem_run_values(setup);
+  const cdem_case_values *values = cdem_run_values(setup->run);
   const cdem_case_interface *entry = &values->interfaces.item[index];
   int dimension = setup->blocks.dimension;
   char key[96];
@@ -43,8 +43,8 @@ static cdem_status resolve(const cdem_run_setup *setup, int64_t index, entry_gro
       groups->joint = (int)j;
   if (groups->joint >= 0)
     return CDEM_OK;
-  return cdem_case_fail(&setup->cases, cdem_run_key(key, "interfaces", index, "joint"), CDEM_INPUT,
-                        fault,
+  return cdem_case_fail(&setup->run->cases, cdem_run_key(key, "interfaces", index, "joint"),
+                        CDEM_INPUT, fault,
                         "'%s' is not among `blocks.joints`; name it there, so that the mesh "
                         "is cut along it",
                         entry->joint);
@@ -62,8 +62,8 @@ static bool fits(const entry_groups *groups, const cdem_face_pair *pair) {
   return false;
 }
 
-static bool is_breakable(const cdem_run_setup *setup, int32_t cell) {
-  const cdem_case_texts *list = &cdem_run_values(setup)->blocks.breakable;
+static bool is_breakable(const cdem_run_body *setup, int32_t cell) {
+  const cdem_case_texts *list = &cdem_run_values(setup->run)->blocks.breakable;
   for (int64_t i = 0; i < list->count; i++)
     if (cdem_run_group_holds(cdem_mesh_find_group(&setup->blocks.mesh, list->item[i]), cell))
       return true;
@@ -72,27 +72,27 @@ static bool is_breakable(const cdem_run_setup *setup, int32_t cell) {
 
 /* A face without an entry: contact from the start where that is on and the face is not one of a
  * breakable region; else an error that names the groups. */
-static cdem_status no_entry(const cdem_run_setup *setup, const cdem_face_pair *pair,
+static cdem_status no_entry(const cdem_run_body *setup, const cdem_face_pair *pair,
                             cdem_fault *fault) {
   const cdem_blocks *blocks = &setup->blocks;
   bool both = is_breakable(setup, pair->cell[0]) && is_breakable(setup, pair->cell[1]);
-  if (cdem_run_values(setup)->contact.active && !both)
+  if (cdem_run_values(setup->run)->contact.active && !both)
     return CDEM_OK;
   char name[2][200];
   for (int side = 0; side < 2; side++)
     cdem_run_group_names(&blocks->mesh, pair->cell[side], blocks->dimension, blocks->dimension,
                          name[side]);
-  return cdem_case_fail(&setup->cases, "interfaces", CDEM_INPUT, fault,
-                        "no entry fits the faces between groups %s and %s%s%s (elements %lld and "
-                        "%lld); add one with `between`, or one without that fits all faces",
-                        name[0], name[1], pair->joint >= 0 ? " along joint " : "",
-                        pair->joint >= 0 ? cdem_run_values(setup)->blocks.joints.item[pair->joint]
-                                         : "",
-                        (long long)blocks->mesh.cell_tag[pair->cell[0]],
-                        (long long)blocks->mesh.cell_tag[pair->cell[1]]);
+  return cdem_case_fail(
+      &setup->run->cases, "interfaces", CDEM_INPUT, fault,
+      "no entry fits the faces between groups %s and %s%s%s (elements %lld and "
+      "%lld); add one with `between`, or one without that fits all faces",
+      name[0], name[1], pair->joint >= 0 ? " along joint " : "",
+      pair->joint >= 0 ? cdem_run_values(setup->run)->blocks.joints.item[pair->joint] : "",
+      (long long)blocks->mesh.cell_tag[pair->cell[0]],
+      (long long)blocks->mesh.cell_tag[pair->cell[1]]);
 }
 
-static void stiffness(const cdem_run_setup *setup, const cdem_case_interface *entry, int32_t pair,
+static void stiffness(const cdem_run_body *setup, const cdem_case_interface *entry, int32_t pair,
                       double *kn, double *ks) {
   const cdem_blocks *blocks = &setup->blocks;
   double area[3], share[4], best = 0.0, ratio = 0.0;
@@ -149,9 +149,9 @@ static const char *key_in(const char *message) {
   return key;
 }
 
-static cdem_status law_of(const cdem_run_setup *setup, int64_t index, int32_t pair,
+static cdem_status law_of(const cdem_run_body *setup, int64_t index, int32_t pair,
                           cdem_interface_law *law, cdem_fault *fault) {
-  const cdem_case_interface *entry = &cdem_run_values(setup)->interfaces.item[index];
+  const cdem_case_interface *entry = &cdem_run_values(setup->run)->interfaces.item[index];
   memset(law, 0, sizeof *law); /* laws are compared as bytes */
   law->insertion = (cdem_insertion)entry->insertion;
   law->softening = (cdem_softening)entry->softening;
@@ -169,15 +169,15 @@ static cdem_status law_of(const cdem_run_setup *setup, int64_t index, int32_t pa
   char key[96];
   if (fault != NULL)
     *fault = local;
-  return cdem_case_blame(&setup->cases,
+  return cdem_case_blame(&setup->run->cases,
                          cdem_run_key(key, "interfaces", index, key_in(local.message)), fault);
 }
 
 /* Laws of all pairs; law_of [pairs] is filled. */
-static cdem_status find_laws(cdem_run_setup *setup, const entry_groups *groups, law_table *table,
+static cdem_status find_laws(cdem_run_body *setup, const entry_groups *groups, law_table *table,
                              int32_t *pair_law, cdem_fault *fault) {
   const cdem_blocks *blocks = &setup->blocks;
-  int64_t entries = cdem_run_values(setup)->interfaces.count;
+  int64_t entries = cdem_run_values(setup->run)->interfaces.count;
   for (int32_t p = 0; p < blocks->pairs; p++) {
     int64_t e = 0;
     while (e < entries && !fits(&groups[e], &blocks->pair[p]))
@@ -194,9 +194,9 @@ static cdem_status find_laws(cdem_run_setup *setup, const entry_groups *groups, 
   return CDEM_OK;
 }
 
-static cdem_status make(cdem_run_setup *setup, entry_groups *groups, law_table *table,
+static cdem_status make(cdem_run_body *setup, entry_groups *groups, law_table *table,
                         int32_t *pair_law, cdem_fault *fault) {
-  for (int64_t e = 0; e < cdem_run_values(setup)->interfaces.count; e++)
+  for (int64_t e = 0; e < cdem_run_values(setup->run)->interfaces.count; e++)
     CDEM_TRY(resolve(setup, e, &groups[e], fault));
   CDEM_TRY(find_laws(setup, groups, table, pair_law, fault));
   const cdem_interfaces_options options = {.blocks = &setup->blocks,
@@ -205,14 +205,14 @@ static cdem_status make(cdem_run_setup *setup, entry_groups *groups, law_table *
                                            .laws = (int)table->laws,
                                            .law = table->law,
                                            .law_of = pair_law,
-                                           .release = cdem_run_values(setup)->contact.release,
-                                           .threads = setup->threads};
+                                           .release = cdem_run_values(setup->run)->contact.release,
+                                           .threads = setup->run->threads};
   cdem_status status = cdem_interfaces_init(&options, &setup->interfaces, fault);
   setup->has_interfaces = status == CDEM_OK;
-  return status == CDEM_INPUT ? cdem_case_blame(&setup->cases, "interfaces", fault) : status;
+  return status == CDEM_INPUT ? cdem_case_blame(&setup->run->cases, "interfaces", fault) : status;
 }
 
-cdem_status cdem_run_setup_interfaces(cdem_run_setup *setup, cdem_fault *fault) {
+cdem_status cdem_run_body_interfaces(cdem_run_body *setup, cdem_fault *fault) {
   int32_t pairs = setup->blocks.pairs;
   law_table table = {.slots = 16};
   if (pairs == 0)
@@ -220,7 +220,7 @@ cdem_status cdem_run_setup_interfaces(cdem_run_setup *setup, cdem_fault *fault) 
   while (table.slots < 2 * (int64_t)pairs)
     table.slots *= 2;
   entry_groups *groups =
-      cdem_allocate(cdem_run_values(setup)->interfaces.count, sizeof *groups, fault);
+      cdem_allocate(cdem_run_values(setup->run)->interfaces.count, sizeof *groups, fault);
   int32_t *pair_law = cdem_allocate(pairs, sizeof *pair_law, fault);
   table.slot = cdem_allocate(table.slots, sizeof *table.slot, fault);
   cdem_status status =

@@ -1,5 +1,5 @@
 /* Blocks, model and elastic body of a case. */
-#include "run/setup.h"
+#include "run/body.h"
 
 #include <omp.h>
 #include <stdio.h>
@@ -11,7 +11,7 @@ static const char *const *texts(const cdem_case_texts *list) {
 }
 
 /* Each group of a list must be there, of the wanted dimension. */
-static cdem_status check_groups(const cdem_run_setup *setup, const char *key,
+static cdem_status check_groups(const cdem_run_body *setup, const char *key,
                                 const cdem_case_texts *list, int dimension, cdem_fault *fault) {
   for (int64_t i = 0; i < list->count; i++) {
     const cdem_group *group;
@@ -20,11 +20,11 @@ static cdem_status check_groups(const cdem_run_setup *setup, const char *key,
   return CDEM_OK;
 }
 
-static cdem_status cut(cdem_run_setup *setup, cdem_fault *fault) {
-  const cdem_case_blocks *blocks = &cdem_run_values(setup)->blocks;
+static cdem_status cut(cdem_run_body *setup, cdem_fault *fault) {
+  const cdem_case_blocks *blocks = &cdem_run_values(setup->run)->blocks;
   int dimension = cdem_mesh_dimension(&setup->mesh);
   if (dimension < 2)
-    return cdem_case_fail(&setup->cases, "mesh", CDEM_INPUT, fault,
+    return cdem_case_fail(&setup->run->cases, "mesh", CDEM_INPUT, fault,
                           "the mesh has no surface or volume elements (highest dimension %d)",
                           dimension);
   CDEM_TRY(check_groups(setup, "blocks.breakable", &blocks->breakable, dimension, fault));
@@ -38,13 +38,13 @@ static cdem_status cut(cdem_run_setup *setup, cdem_fault *fault) {
                                        .joints = (int)blocks->joints.count,
                                        .joint_group = texts(&blocks->joints)};
   cdem_status status = cdem_blocks_init(&options, &setup->blocks, fault);
-  const char *key = cdem_case_given(&setup->cases, "blocks") ? "blocks" : "mesh";
-  return status == CDEM_INPUT ? cdem_case_blame(&setup->cases, key, fault) : status;
+  const char *key = cdem_case_given(&setup->run->cases, "blocks") ? "blocks" : "mesh";
+  return status == CDEM_INPUT ? cdem_case_blame(&setup->run->cases, key, fault) : status;
 }
 
 /* Index of the material for cells of no named group; -1 when every material has groups. */
-static cdem_status find_default(const cdem_run_setup *setup, int *index, cdem_fault *fault) {
-  const cdem_case_values *values = cdem_run_values(setup);
+static cdem_status find_default(const cdem_run_body *setup, int *index, cdem_fault *fault) {
+  const cdem_case_values *values = cdem_run_values(setup->run);
   char key[96];
   *index = -1;
   for (int m = 0; m < (int)values->materials.count; m++) {
@@ -53,7 +53,7 @@ static cdem_status find_default(const cdem_run_setup *setup, int *index, cdem_fa
       continue;
     if (*index >= 0)
       return cdem_case_fail(
-          &setup->cases, cdem_run_named_key(key, "materials", material->name, ""), CDEM_INPUT,
+          &setup->run->cases, cdem_run_named_key(key, "materials", material->name, ""), CDEM_INPUT,
           fault, "materials '%s' and '%s' both have no groups; one material at most may be without",
           values->materials.item[*index].name, material->name);
     *index = m;
@@ -62,8 +62,8 @@ static cdem_status find_default(const cdem_run_setup *setup, int *index, cdem_fa
 }
 
 /* No cell may be left without a material; the message names the groups it is in. */
-static cdem_status check_cover(const cdem_run_setup *setup, cdem_fault *fault) {
-  const cdem_case_values *values = cdem_run_values(setup);
+static cdem_status check_cover(const cdem_run_body *setup, cdem_fault *fault) {
+  const cdem_case_values *values = cdem_run_values(setup->run);
   const cdem_mesh *mesh = &setup->blocks.mesh;
   bool *covered = cdem_allocate(mesh->cells, sizeof *covered, fault);
   if (covered == NULL)
@@ -86,7 +86,7 @@ static cdem_status check_cover(const cdem_run_setup *setup, cdem_fault *fault) {
     return CDEM_OK;
   char names[200];
   cdem_run_group_names(mesh, first, setup->blocks.dimension, setup->blocks.dimension, names);
-  return cdem_case_fail(&setup->cases, "materials", CDEM_INPUT, fault,
+  return cdem_case_fail(&setup->run->cases, "materials", CDEM_INPUT, fault,
                         "%d elements have no material: element %lld is in group %s; name the group "
                         "under `groups` of a material, or leave `groups` out of one material",
                         bare, (long long)mesh->cell_tag[first], names);
@@ -106,8 +106,8 @@ static void assignment_release(assignment *a) {
   free(a->of);
 }
 
-static cdem_status assign(const cdem_run_setup *setup, assignment *a, cdem_fault *fault) {
-  const cdem_case_values *values = cdem_run_values(setup);
+static cdem_status assign(const cdem_run_body *setup, assignment *a, cdem_fault *fault) {
+  const cdem_case_values *values = cdem_run_values(setup->run);
   int materials = (int)values->materials.count, dimension = setup->blocks.dimension;
   int64_t groups = 0;
   for (int m = 0; m < materials; m++)
@@ -130,10 +130,11 @@ static cdem_status assign(const cdem_run_setup *setup, assignment *a, cdem_fault
   return CDEM_OK;
 }
 
-static cdem_status make_model(cdem_run_setup *setup, const assignment *a, int default_material,
+static cdem_status make_model(cdem_run_body *setup, const assignment *a, int default_material,
                               cdem_fault *fault) {
   const cdem_model_options options = {.mesh = &setup->blocks.mesh,
-                                      .materials = (int)cdem_run_values(setup)->materials.count,
+                                      .materials =
+                                          (int)cdem_run_values(setup->run)->materials.count,
                                       .material = a->material,
                                       .assignments = a->assignments,
                                       .assigned_group = a->group,
@@ -152,12 +153,12 @@ static cdem_status make_model(cdem_run_setup *setup, const assignment *a, int de
     return status;
   /* A material that cannot be, or an element that cannot. */
   bool material = strstr(local.message, "material") != NULL;
-  return cdem_case_blame(&setup->cases, material ? "materials" : "mesh", fault);
+  return cdem_case_blame(&setup->run->cases, material ? "materials" : "mesh", fault);
 }
 
 /* lambda + 2G and G of the formulation. Not isotropic: the stiffest direct and shear moduli, which
  * is what a penalty must keep up with. */
-static cdem_status moduli(const cdem_run_setup *setup, const cdem_material *material,
+static cdem_status moduli(const cdem_run_body *setup, const cdem_material *material,
                           cdem_run_moduli *found, cdem_fault *fault) {
   const cdem_formulation formulation = setup->model.formulation;
   double d[36];
@@ -179,8 +180,8 @@ static cdem_status moduli(const cdem_run_setup *setup, const cdem_material *mate
   return CDEM_OK;
 }
 
-static cdem_status material_numbers(cdem_run_setup *setup, cdem_fault *fault) {
-  const cdem_case_values *values = cdem_run_values(setup);
+static cdem_status material_numbers(cdem_run_body *setup, cdem_fault *fault) {
+  const cdem_case_values *values = cdem_run_values(setup->run);
   int materials = (int)values->materials.count;
   bool gravity = cdem_norm3(values->gravity) > 0.0,
        needed = values->analysis == CDEM_ANALYSIS_DYNAMIC || gravity;
@@ -201,7 +202,7 @@ static cdem_status material_numbers(cdem_run_setup *setup, cdem_fault *fault) {
   return CDEM_OK;
 }
 
-static cdem_status cell_numbers(cdem_run_setup *setup, cdem_fault *fault) {
+static cdem_status cell_numbers(cdem_run_body *setup, cdem_fault *fault) {
   const cdem_model *model = &setup->model;
   CDEM_NEW(setup->model_of, setup->blocks.mesh.cells, fault);
   CDEM_NEW(setup->volume, model->cells, fault);
@@ -220,13 +221,15 @@ static cdem_status cell_numbers(cdem_run_setup *setup, cdem_fault *fault) {
 
 /* Waiting for each other costs small bodies more than a second thread gains; no result depends on
  * their number. */
-static int worthwhile_threads(const cdem_run_setup *setup) {
+static int worthwhile_threads(const cdem_run_body *setup) {
   enum { CELLS_A_THREAD = 2000 };
   int most = omp_get_max_threads(), worth = 1 + setup->model.cells / CELLS_A_THREAD;
-  return setup->options->threads > 0 ? setup->options->threads : worth < most ? worth : most;
+  return setup->run->options->threads > 0 ? setup->run->options->threads
+         : worth < most                   ? worth
+                                          : most;
 }
 
-cdem_status cdem_run_setup_body(cdem_run_setup *setup, cdem_fault *fault) {
+cdem_status cdem_run_body_model(cdem_run_body *setup, cdem_fault *fault) {
   assignment a = {0};
   int default_material;
   CDEM_TRY(cut(setup, fault));
@@ -238,12 +241,12 @@ cdem_status cdem_run_setup_body(cdem_run_setup *setup, cdem_fault *fault) {
   CDEM_TRY(status);
   CDEM_TRY(material_numbers(setup, fault));
   CDEM_TRY(cell_numbers(setup, fault));
-  setup->threads = worthwhile_threads(setup);
+  setup->run->threads = worthwhile_threads(setup);
   const cdem_body_options options = {.density = setup->density,
                                      .micro_inertia = setup->micro_inertia,
-                                     .linear =
-                                         cdem_run_values(setup)->analysis == CDEM_ANALYSIS_STATIC,
-                                     .threads = setup->threads};
+                                     .linear = cdem_run_values(setup->run)->analysis ==
+                                               CDEM_ANALYSIS_STATIC,
+                                     .threads = setup->run->threads};
   status = cdem_body_init(&setup->model, &options, &setup->body, fault);
-  return status == CDEM_INPUT ? cdem_case_blame(&setup->cases, "mesh", fault) : status;
+  return status == CDEM_INPUT ? cdem_case_blame(&setup->run->cases, "mesh", fault) : status;
 }

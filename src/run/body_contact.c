@@ -3,9 +3,9 @@
  * One kn for all: factor (lambda + 2G)/h of the stiffest material, h the mean size of a facet that
  * is, or can come, on the surface.
  */
-#include "run/setup.h"
+#include "run/body.h"
 
-static void find_scale(cdem_run_setup *setup) {
+static void find_scale(cdem_run_body *setup) {
   const cdem_blocks *blocks = &setup->blocks;
   double sum = 0.0;
   for (int32_t f = 0; f < blocks->facets; f++) {
@@ -21,8 +21,8 @@ static void find_scale(cdem_run_setup *setup) {
     }
 }
 
-cdem_status cdem_run_setup_contact(cdem_run_setup *setup, cdem_fault *fault) {
-  const cdem_case_contact *contact = &cdem_run_values(setup)->contact;
+cdem_status cdem_run_body_contact(cdem_run_body *setup, cdem_fault *fault) {
+  const cdem_case_contact *contact = &cdem_run_values(setup->run)->contact;
   find_scale(setup);
   if (!contact->active)
     return CDEM_OK;
@@ -40,8 +40,8 @@ cdem_status cdem_run_setup_contact(cdem_run_setup *setup, cdem_fault *fault) {
               .damping = contact->damping},
       .skin = isnan(contact->skin) ? 0.0 : contact->skin,
       .mass = setup->body.mass,
-      .threads = setup->threads};
+      .threads = setup->run->threads};
   cdem_status status = cdem_contact_init(&options, &setup->contact, fault);
   setup->has_contact = status == CDEM_OK;
-  return status == CDEM_INPUT ? cdem_case_blame(&setup->cases, "contact", fault) : status;
+  return status == CDEM_INPUT ? cdem_case_blame(&setup->run->cases, "contact", fault) : status;
 }

@@ -1,11 +1,11 @@
 /* Supports, plates and initial velocities of a case. */
-#include "run/setup.h"
+#include "run/body.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static cdem_status group_nodes(const cdem_run_setup *setup, const char *key, const char *name,
+static cdem_status group_nodes(const cdem_run_body *setup, const char *key, const char *name,
                                int32_t *count, int32_t **node, cdem_fault *fault) {
   const cdem_group *group;
   CDEM_TRY(cdem_run_find_group(setup, key, name, 0, 3, &group, fault));
@@ -14,9 +14,9 @@ static cdem_status group_nodes(const cdem_run_setup *setup, const char *key, con
 
 /* ---- supports ---- */
 
-static cdem_status add_support(cdem_run_setup *setup, int64_t entry, int component, bool velocity,
+static cdem_status add_support(cdem_run_body *setup, int64_t entry, int component, bool velocity,
                                cdem_fault *fault) {
-  const cdem_case_support *wanted = &cdem_run_values(setup)->supports.item[entry];
+  const cdem_case_support *wanted = &cdem_run_values(setup->run)->supports.item[entry];
   cdem_run_conditions *c = &setup->conditions;
   char key[96];
   int dof;
@@ -31,7 +31,7 @@ static cdem_status add_support(cdem_run_setup *setup, int64_t entry, int compone
     if (c->support[i].component == dof && strcmp(c->support[i].name, wanted->group) == 0) {
       char full[128];
       snprintf(full, sizeof full, "%s.%s", key, cdem_run_component[component]);
-      return cdem_case_fail(&setup->cases, full, CDEM_INPUT, fault,
+      return cdem_case_fail(&setup->run->cases, full, CDEM_INPUT, fault,
                             "an entry above prescribes %s of group '%s' already; leave one out",
                             cdem_run_component[component], wanted->group);
     }
@@ -44,8 +44,8 @@ static cdem_status add_support(cdem_run_setup *setup, int64_t entry, int compone
   return CDEM_OK;
 }
 
-static cdem_status supports(cdem_run_setup *setup, cdem_fault *fault) {
-  const cdem_case_values *values = cdem_run_values(setup);
+static cdem_status supports(cdem_run_body *setup, cdem_fault *fault) {
+  const cdem_case_values *values = cdem_run_values(setup->run);
   for (int64_t i = 0; i < values->supports.count; i++)
     for (int k = 0; k < 4; k++) {
       if (values->supports.item[i].displacement.given[k])
@@ -60,14 +60,14 @@ static cdem_status supports(cdem_run_setup *setup, cdem_fault *fault) {
 
 /* Unit normal; an in-plane axis where none was given: z in 2-D, else across the smallest component
  * of the normal. */
-static cdem_status plate_axes(const cdem_run_setup *setup, const cdem_case_plate *wanted,
+static cdem_status plate_axes(const cdem_run_body *setup, const cdem_case_plate *wanted,
                               cdem_plate *plate, cdem_fault *fault) {
   char key[96];
   double size = cdem_norm3(wanted->normal), along = cdem_norm3(wanted->axis);
   if (!(size > 0.0))
-    return cdem_case_fail(&setup->cases, cdem_run_named_key(key, "plates", wanted->name, "normal"),
-                          CDEM_INPUT, fault,
-                          "the normal has no length; it points out of the plate towards the body");
+    return cdem_case_fail(
+        &setup->run->cases, cdem_run_named_key(key, "plates", wanted->name, "normal"), CDEM_INPUT,
+        fault, "the normal has no length; it points out of the plate towards the body");
   int least = 0;
   double axis[3] = {0};
   for (int k = 0; k < 3; k++) {
@@ -86,16 +86,16 @@ static cdem_status plate_axes(const cdem_run_setup *setup, const cdem_case_plate
     axis[k] -= out * plate->normal[k];
   double length = cdem_norm3(axis);
   if (length < 1e-6)
-    return cdem_case_fail(&setup->cases, cdem_run_named_key(key, "plates", wanted->name, "axis"),
-                          CDEM_INPUT, fault,
-                          "the axis is parallel to the normal; it lies in the plate");
+    return cdem_case_fail(&setup->run->cases,
+                          cdem_run_named_key(key, "plates", wanted->name, "axis"), CDEM_INPUT,
+                          fault, "the axis is parallel to the normal; it lies in the plate");
   for (int k = 0; k < 3; k++)
     plate->axis[k] = axis[k] / length;
   return CDEM_OK;
 }
 
-static cdem_status add_plate(cdem_run_setup *setup, int64_t index, cdem_fault *fault) {
-  const cdem_case_plate *wanted = &cdem_run_values(setup)->plates.item[index];
+static cdem_status add_plate(cdem_run_body *setup, int64_t index, cdem_fault *fault) {
+  const cdem_case_plate *wanted = &cdem_run_values(setup->run)->plates.item[index];
   cdem_run_conditions *c = &setup->conditions;
   double ratio = isnan(wanted->shear_ratio) ? setup->contact_ratio : wanted->shear_ratio;
   cdem_plate plate = {.name = wanted->name, .friction = wanted->friction};
@@ -118,8 +118,7 @@ static cdem_status add_plate(cdem_run_setup *setup, int64_t index, cdem_fault *f
 
 /* ---- initial velocities ---- */
 
-static void set_velocity(const cdem_run_setup *setup, const cdem_case_initial *entry,
-                         int32_t node) {
+static void set_velocity(const cdem_run_body *setup, const cdem_case_initial *entry, int32_t node) {
   const double *x = setup->blocks.mesh.xyz + 3 * (int64_t)node;
   int dofs = setup->body.dofs, dimension = setup->model.dimension;
   double *v = setup->conditions.velocity + (int64_t)dofs * node;
@@ -133,8 +132,8 @@ static void set_velocity(const cdem_run_setup *setup, const cdem_case_initial *e
     v[2] = entry->spin[2];
 }
 
-static cdem_status initial(cdem_run_setup *setup, cdem_fault *fault) {
-  const cdem_case_values *values = cdem_run_values(setup);
+static cdem_status initial(cdem_run_body *setup, cdem_fault *fault) {
+  const cdem_case_values *values = cdem_run_values(setup->run);
   char key[96];
   if (values->initial.count == 0)
     return CDEM_OK;
@@ -156,9 +155,9 @@ static cdem_status initial(cdem_run_setup *setup, cdem_fault *fault) {
   return CDEM_OK;
 }
 
-cdem_status cdem_run_setup_conditions(cdem_run_setup *setup, cdem_fault *fault) {
+cdem_status cdem_run_body_conditions(cdem_run_body *setup, cdem_fault *fault) {
   CDEM_TRY(supports(setup, fault));
-  for (int64_t i = 0; i < cdem_run_values(setup)->plates.count; i++)
+  for (int64_t i = 0; i < cdem_run_values(setup->run)->plates.count; i++)
     CDEM_TRY(add_plate(setup, i, fault));
   return initial(setup, fault);
 }

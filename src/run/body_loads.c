@@ -1,7 +1,7 @@
 /* Loads of a case as nodal vectors: forces spread over a group, tractions, Kirsch's tractions; and
  * pressures and quiet boundaries as lists of facets. */
+#include "run/body.h"
 #include "run/kirsch.h"
-#include "run/setup.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -15,17 +15,17 @@ typedef struct {
 /* ---- weights ---- */
 
 /* Facets of a group of faces, with an error at `key`. */
-static cdem_status group_facets(const cdem_run_setup *setup, const char *key, const char *name,
+static cdem_status group_facets(const cdem_run_body *setup, const char *key, const char *name,
                                 int32_t *count, int32_t **facet, cdem_fault *fault) {
   const cdem_group *group;
   int dimension = setup->blocks.dimension - 1;
   CDEM_TRY(cdem_run_find_group(setup, key, name, dimension, dimension, &group, fault));
   cdem_status status = cdem_blocks_group_facets(&setup->blocks, name, count, facet, fault);
-  return status == CDEM_INPUT ? cdem_case_blame(&setup->cases, key, fault) : status;
+  return status == CDEM_INPUT ? cdem_case_blame(&setup->run->cases, key, fault) : status;
 }
 
 /* Each node's share of the area of a group of faces, m^2. */
-static cdem_status area_weights(const cdem_run_setup *setup, const char *key, const char *name,
+static cdem_status area_weights(const cdem_run_body *setup, const char *key, const char *name,
                                 double *weight, cdem_fault *fault) {
   int32_t count, *facet;
   CDEM_TRY(group_facets(setup, key, name, &count, &facet, fault));
@@ -41,7 +41,7 @@ static cdem_status area_weights(const cdem_run_setup *setup, const char *key, co
 }
 
 /* Of a group of volumes: an equal part of each cell's volume. Of points and lines: 1 each. */
-static cdem_status other_weights(const cdem_run_setup *setup, const cdem_group *group,
+static cdem_status other_weights(const cdem_run_body *setup, const cdem_group *group,
                                  double *weight, cdem_fault *fault) {
   const cdem_mesh *mesh = &setup->blocks.mesh;
   if (group->dimension == setup->blocks.dimension) {
@@ -64,7 +64,7 @@ static cdem_status other_weights(const cdem_run_setup *setup, const cdem_group *
 /* ---- adding ---- */
 
 /* A load from a field that is zero at most nodes: vector = field (width 1: along `dof`). */
-static cdem_status add_load(cdem_run_setup *setup, const char *name, const cdem_series *series,
+static cdem_status add_load(cdem_run_body *setup, const char *name, const cdem_series *series,
                             const node_field *field, int dof, cdem_fault *fault) {
   cdem_run_conditions *c = &setup->conditions;
   int dofs = setup->body.dofs;
@@ -97,9 +97,9 @@ static cdem_status add_load(cdem_run_setup *setup, const char *name, const cdem_
   return CDEM_OK;
 }
 
-static cdem_status add_components(cdem_run_setup *setup, int64_t index, bool traction,
+static cdem_status add_components(cdem_run_body *setup, int64_t index, bool traction,
                                   const node_field *field, cdem_fault *fault) {
-  const cdem_case_load *load = &cdem_run_values(setup)->loads.item[index];
+  const cdem_case_load *load = &cdem_run_values(setup->run)->loads.item[index];
   const cdem_case_components *wanted = traction ? &load->traction : &load->force;
   char key[96];
   cdem_run_key(key, "loads", index, traction ? "traction" : "force");
@@ -118,9 +118,9 @@ static bool any_given(const cdem_case_components *components) {
 }
 
 /* A total force: weights that sum to one. */
-static cdem_status force_load(cdem_run_setup *setup, int64_t index, node_field *field,
+static cdem_status force_load(cdem_run_body *setup, int64_t index, node_field *field,
                               cdem_fault *fault) {
-  const cdem_case_load *load = &cdem_run_values(setup)->loads.item[index];
+  const cdem_case_load *load = &cdem_run_values(setup->run)->loads.item[index];
   const cdem_group *group;
   char key[96];
   cdem_run_key(key, "loads", index, "group");
@@ -133,16 +133,16 @@ static cdem_status force_load(cdem_run_setup *setup, int64_t index, node_field *
   for (int32_t n = 0; n < setup->body.nodes; n++)
     sum += field->weight[n];
   if (!(sum > 0.0))
-    return cdem_case_fail(&setup->cases, key, CDEM_INPUT, fault,
+    return cdem_case_fail(&setup->run->cases, key, CDEM_INPUT, fault,
                           "group '%s' has no surface or node to carry the force", load->group);
   for (int32_t n = 0; n < setup->body.nodes; n++)
     field->weight[n] /= sum;
   return add_components(setup, index, false, field, fault);
 }
 
-static cdem_status traction_load(cdem_run_setup *setup, int64_t index, node_field *field,
+static cdem_status traction_load(cdem_run_body *setup, int64_t index, node_field *field,
                                  cdem_fault *fault) {
-  const cdem_case_load *load = &cdem_run_values(setup)->loads.item[index];
+  const cdem_case_load *load = &cdem_run_values(setup->run)->loads.item[index];
   char key[96];
   CDEM_TRY(area_weights(setup, cdem_run_key(key, "loads", index, "group"), load->group,
                         field->weight, fault));
@@ -180,7 +180,7 @@ static void facet_shape(int corners, double s, double t, double n[4], double dn[
 }
 
 /* Adds the integral of N_i sigma . n over a facet. */
-static void kirsch_facet(const cdem_run_setup *setup, const cdem_case_load *load,
+static void kirsch_facet(const cdem_run_body *setup, const cdem_case_load *load,
                          const cdem_facet *facet, node_field *field) {
   bool flat = facet->corners == 2;
   for (int a = 0; a < GAUSS; a++)
@@ -208,9 +208,9 @@ static void kirsch_facet(const cdem_run_setup *setup, const cdem_case_load *load
     }
 }
 
-static cdem_status kirsch_load(cdem_run_setup *setup, int64_t index, node_field *field,
+static cdem_status kirsch_load(cdem_run_body *setup, int64_t index, node_field *field,
                                cdem_fault *fault) {
-  const cdem_case_load *load = &cdem_run_values(setup)->loads.item[index];
+  const cdem_case_load *load = &cdem_run_values(setup->run)->loads.item[index];
   int32_t count, *facet;
   char key[96];
   CDEM_TRY(group_facets(setup, cdem_run_key(key, "loads", index, "group"), load->group, &count,
@@ -223,8 +223,8 @@ static cdem_status kirsch_load(cdem_run_setup *setup, int64_t index, node_field 
 
 /* ---- pressures and quiet boundaries ---- */
 
-static cdem_status add_pressure(cdem_run_setup *setup, int64_t index, cdem_fault *fault) {
-  const cdem_case_load *load = &cdem_run_values(setup)->loads.item[index];
+static cdem_status add_pressure(cdem_run_body *setup, int64_t index, cdem_fault *fault) {
+  const cdem_case_load *load = &cdem_run_values(setup->run)->loads.item[index];
   cdem_run_conditions *c = &setup->conditions;
   cdem_pressure pressure = {.name = load->group, .series = load->pressure};
   int32_t *facet;
@@ -237,7 +237,7 @@ static cdem_status add_pressure(cdem_run_setup *setup, int64_t index, cdem_fault
   return CDEM_OK;
 }
 
-static cdem_status impedances(const cdem_run_setup *setup, const cdem_quiet *quiet,
+static cdem_status impedances(const cdem_run_body *setup, const cdem_quiet *quiet,
                               double *impedance, cdem_fault *fault) {
   for (int32_t i = 0; i < quiet->facets; i++) {
     int32_t cell = setup->blocks.facet[quiet->facet[i]].cell;
@@ -250,7 +250,7 @@ static cdem_status impedances(const cdem_run_setup *setup, const cdem_quiet *qui
   return CDEM_OK;
 }
 
-static cdem_status add_quiet(cdem_run_setup *setup, const char *name, cdem_fault *fault) {
+static cdem_status add_quiet(cdem_run_body *setup, const char *name, cdem_fault *fault) {
   cdem_run_conditions *c = &setup->conditions;
   int32_t *facet;
   CDEM_TRY(cdem_grow(&c->quiet, &c->capacity[3], c->quiets + 1, sizeof *c->quiet, fault));
@@ -266,9 +266,9 @@ static cdem_status add_quiet(cdem_run_setup *setup, const char *name, cdem_fault
 
 /* ---- all ---- */
 
-static cdem_status one_load(cdem_run_setup *setup, int64_t index, node_field *field,
+static cdem_status one_load(cdem_run_body *setup, int64_t index, node_field *field,
                             cdem_fault *fault) {
-  const cdem_case_load *load = &cdem_run_values(setup)->loads.item[index];
+  const cdem_case_load *load = &cdem_run_values(setup->run)->loads.item[index];
   int64_t nodes = setup->body.nodes;
   if (load->has_pressure)
     CDEM_TRY(add_pressure(setup, index, fault));
@@ -288,8 +288,8 @@ static cdem_status one_load(cdem_run_setup *setup, int64_t index, node_field *fi
   return kirsch_load(setup, index, field, fault);
 }
 
-cdem_status cdem_run_setup_loads(cdem_run_setup *setup, cdem_fault *fault) {
-  const cdem_case_values *values = cdem_run_values(setup);
+cdem_status cdem_run_body_loads(cdem_run_body *setup, cdem_fault *fault) {
+  const cdem_case_values *values = cdem_run_values(setup->run);
   node_field field;
   CDEM_TRY(cdem_series_constant(1.0, &setup->conditions.unit, fault));
   CDEM_NEW(field.weight, (int64_t)setup->body.nodes * setup->body.dofs, fault);

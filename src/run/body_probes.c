@@ -1,5 +1,5 @@
 /* Probes: means of displacement, velocity and stress, and the sum of the forces on a group. */
-#include "run/history.h"
+#include "run/body.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@ const char *cdem_run_probe_unit(const cdem_case_probe *probe) {
   return (probe->component == ROTATION ? turning : unit)[probe->quantity];
 }
 
-static cdem_status check_component(const cdem_run_setup *setup, const cdem_case_probe *probe,
+static cdem_status check_component(const cdem_run_body *setup, const cdem_case_probe *probe,
                                    cdem_fault *fault) {
   char key[96];
   int dof;
@@ -21,7 +21,7 @@ static cdem_status check_component(const cdem_run_setup *setup, const cdem_case_
        tensor = probe->component >= XX && probe->component < SIZE;
   if (stress != tensor && probe->component != SIZE)
     return cdem_case_fail(
-        &setup->cases, cdem_run_named_key(key, "probes", probe->name, "component"), CDEM_INPUT,
+        &setup->run->cases, cdem_run_named_key(key, "probes", probe->name, "component"), CDEM_INPUT,
         fault, "a component of %s is one of %s", stress ? "stress" : "a vector",
         stress ? "xx, yy, zz, yz, xz, xy, magnitude" : "x, y, z, rotation, magnitude");
   if (!tensor && probe->component != SIZE)
@@ -30,7 +30,7 @@ static cdem_status check_component(const cdem_run_setup *setup, const cdem_case_
   return CDEM_OK;
 }
 
-static cdem_status resolve(const cdem_run_setup *setup, const cdem_case_probe *probe,
+static cdem_status resolve(const cdem_run_body *setup, const cdem_case_probe *probe,
                            cdem_run_probe *found, cdem_fault *fault) {
   const cdem_group *group;
   char key[96];
@@ -44,37 +44,37 @@ static cdem_status resolve(const cdem_run_setup *setup, const cdem_case_probe *p
   return cdem_blocks_group_nodes(&setup->blocks, probe->group, &found->nodes, &found->node, fault);
 }
 
-cdem_status cdem_run_probes_init(const cdem_run_setup *setup, cdem_run_history *history,
+cdem_status cdem_run_probes_init(const cdem_run_body *setup, cdem_run_probes *probes,
                                  cdem_fault *fault) {
-  const cdem_case_values *values = cdem_run_values(setup);
+  const cdem_case_values *values = cdem_run_values(setup->run);
   bool cells = false, nodes = false;
-  CDEM_NEW(history->probe, values->probes.count, fault);
+  CDEM_NEW(probes->probe, values->probes.count, fault);
   for (int64_t p = 0; p < values->probes.count; p++) {
     const cdem_case_probe *probe = &values->probes.item[p];
-    CDEM_TRY(resolve(setup, probe, &history->probe[p], fault));
-    cells = cells || history->probe[p].cells != NULL;
-    nodes = nodes || (probe->quantity == STRESS && history->probe[p].cells == NULL);
+    CDEM_TRY(resolve(setup, probe, &probes->probe[p], fault));
+    cells = cells || probes->probe[p].cells != NULL;
+    nodes = nodes || (probe->quantity == STRESS && probes->probe[p].cells == NULL);
   }
-  CDEM_NEW(history->velocity, (int64_t)setup->body.nodes * setup->body.dofs, fault);
+  CDEM_NEW(probes->velocity, (int64_t)setup->body.nodes * setup->body.dofs, fault);
   if (cells)
-    CDEM_NEW(history->cell_stress, 6 * (int64_t)setup->model.cells, fault);
+    CDEM_NEW(probes->cell_stress, 6 * (int64_t)setup->model.cells, fault);
   if (nodes)
-    CDEM_NEW(history->node_stress, 6 * (int64_t)setup->body.nodes, fault);
+    CDEM_NEW(probes->node_stress, 6 * (int64_t)setup->body.nodes, fault);
   return CDEM_OK;
 }
 
-void cdem_run_probes_update(const cdem_run_setup *setup, cdem_run_history *history) {
-  const cdem_body_fields fields = {.stress = history->cell_stress};
-  if (cdem_run_values(setup)->probes.count > 0)
-    cdem_solver_velocity(&setup->solver, history->velocity);
-  if (history->cell_stress != NULL)
+void cdem_run_probes_update(const cdem_run_body *setup, cdem_run_probes *probes) {
+  const cdem_body_fields fields = {.stress = probes->cell_stress};
+  if (cdem_run_values(setup->run)->probes.count > 0)
+    cdem_solver_velocity(&setup->solver, probes->velocity);
+  if (probes->cell_stress != NULL)
     cdem_body_cell_fields(&setup->body, setup->solver.u, &fields);
-  if (history->node_stress != NULL)
-    cdem_body_node_stress(&setup->body, setup->solver.u, history->node_stress);
+  if (probes->node_stress != NULL)
+    cdem_body_node_stress(&setup->body, setup->solver.u, probes->node_stress);
 }
 
 /* Mean over the group, xx yy zz yz xz xy. */
-static void mean_stress(const cdem_run_setup *setup, const cdem_run_history *history,
+static void mean_stress(const cdem_run_body *setup, const cdem_run_probes *probes,
                         const cdem_run_probe *probe, double mean[6]) {
   double sum = 0.0;
   memset(mean, 0, 6 * sizeof *mean);
@@ -83,13 +83,13 @@ static void mean_stress(const cdem_run_setup *setup, const cdem_run_history *his
       int64_t cell = setup->model_of[probe->cells->cell[i]];
       sum += setup->volume[cell];
       for (int k = 0; k < 6; k++)
-        mean[k] += setup->volume[cell] * history->cell_stress[6 * cell + k];
+        mean[k] += setup->volume[cell] * probes->cell_stress[6 * cell + k];
     }
   else
     for (int32_t i = 0; i < probe->nodes; i++) {
       sum += 1.0;
       for (int k = 0; k < 6; k++)
-        mean[k] += history->node_stress[6 * (int64_t)probe->node[i] + k];
+        mean[k] += probes->node_stress[6 * (int64_t)probe->node[i] + k];
     }
   for (int k = 0; k < 6; k++)
     mean[k] /= sum;
@@ -102,7 +102,7 @@ static double von_mises(const double s[6]) {
 }
 
 /* Sum (force) or mean over the nodes, by degree of freedom. */
-static void node_vector(const cdem_run_setup *setup, const cdem_run_history *history,
+static void node_vector(const cdem_run_body *setup, const cdem_run_probes *probes,
                         const cdem_run_probe *probe, int quantity, double vector[3]) {
   const cdem_solver *solver = &setup->solver;
   int dofs = solver->dofs;
@@ -114,24 +114,35 @@ static void node_vector(const cdem_run_setup *setup, const cdem_run_history *his
   for (int32_t i = 0; i < probe->nodes; i++)
     for (int k = 0; k < dofs; k++) {
       int64_t at = (int64_t)probe->node[i] * dofs + k;
-      vector[k] += quantity == DISPLACEMENT ? solver->u[at] : history->velocity[at];
+      vector[k] += quantity == DISPLACEMENT ? solver->u[at] : probes->velocity[at];
     }
   for (int k = 0; k < dofs; k++)
     vector[k] /= probe->nodes;
 }
 
-double cdem_run_probe_value(const cdem_run_setup *setup, const cdem_run_history *history,
+double cdem_run_probe_value(const cdem_run_body *setup, const cdem_run_probes *probes,
                             int64_t index) {
-  const cdem_case_probe *probe = &cdem_run_values(setup)->probes.item[index];
-  const cdem_run_probe *place = &history->probe[index];
+  const cdem_case_probe *probe = &cdem_run_values(setup->run)->probes.item[index];
+  const cdem_run_probe *place = &probes->probe[index];
   if (probe->quantity == STRESS) {
     double stress[6];
-    mean_stress(setup, history, place, stress);
+    mean_stress(setup, probes, place, stress);
     return probe->component == SIZE ? von_mises(stress) : stress[probe->component - XX];
   }
   double vector[3];
-  node_vector(setup, history, place, probe->quantity, vector);
+  node_vector(setup, probes, place, probe->quantity, vector);
   if (probe->component == SIZE)
     return setup->model.dimension == 3 ? cdem_norm3(vector) : hypot(vector[0], vector[1]);
   return vector[probe->component == ROTATION ? 2 : probe->component];
+}
+
+void cdem_run_probes_release(const cdem_run_body *setup, cdem_run_probes *probes) {
+  if (probes->probe != NULL)
+    for (int64_t p = 0; p < cdem_run_values(setup->run)->probes.count; p++)
+      free(probes->probe[p].node);
+  free(probes->probe);
+  free(probes->velocity);
+  free(probes->cell_stress);
+  free(probes->node_stress);
+  *probes = (cdem_run_probes){0};
 }

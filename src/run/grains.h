@@ -1,0 +1,83 @@
+/* Private to run: the engine of grains: a case made into a solver, with everything that the solver
+ * borrows. */
+#ifndef CDEM_RUN_GRAINS_H
+#define CDEM_RUN_GRAINS_H
+
+#include "dem/dem.h"
+#include "dem/measures.h"
+#include "run/setup.h"
+
+/* Triangles or segments of a wall, read from a file or a checkpoint. */
+typedef struct {
+  int64_t corners, facets;
+  double *corner; /* [corners][3] m */
+  int32_t *facet; /* [facets][dim] */
+} cdem_run_facets;
+
+typedef struct {
+  cdem_run_setup *run;
+  int dim;
+  cdem_grains grains;     /* at the start, all arrays; material: index into `material` */
+  int32_t *case_material; /* [grains] index into grains.materials of the case */
+  double low[3], high[3]; /* box of the packing, after it was pressed together */
+  int materials;          /* those that grains or walls use */
+  int *used;              /* [materials] index into grains.materials of the case */
+  int *model_of;          /* [grains.materials of the case] the other way round; -1: not used */
+  bool *of_grains;        /* [materials] some grain consists of it */
+  cdem_grain_material *material; /* [materials] */
+  cdem_contact_input *contact;   /* [materials][materials] */
+  int *contact_entry;            /* [materials][materials] of the case's contacts; -1: none */
+  int walls;
+  cdem_wall *wall;         /* [walls] */
+  cdem_run_facets *facets; /* [walls] */
+  cdem_bond_law *bond_law; /* [bonds of the case] */
+  int64_t bonds, bond_room;
+  cdem_bond *bond; /* [bonds] */
+  cdem_cell cell;
+  bool has_cell;
+  cdem_dem_options options;
+  cdem_dem dem;
+  double *velocity;              /* [grains][3] scratch of the columns */
+  cdem_strain_reference *strain; /* the start, where a picture of strain is wanted */
+} cdem_run_grains;
+
+/* ---- the steps of its making, one file each ---- */
+
+/* grains_start.c: places, sizes, initial motion; from a file, a packing, or a checkpoint */
+cdem_status cdem_run_grains_start(cdem_run_grains *g, const cdem_state *checkpoint,
+                                  cdem_fault *fault);
+/* ... what of that a checkpoint keeps (borrowed) */
+cdem_status cdem_run_grains_save(const cdem_run_grains *g, cdem_state *state, cdem_fault *fault);
+/* grains_walls.c: walls and the cell */
+cdem_status cdem_run_grains_walls(cdem_run_grains *g, const cdem_state *checkpoint,
+                                  cdem_fault *fault);
+cdem_status cdem_run_grains_cell(cdem_run_grains *g, cdem_fault *fault);
+/* grains_contacts.c: which materials are used, and the numbers of each pair */
+cdem_status cdem_run_grains_materials(cdem_run_grains *g, cdem_fault *fault);
+cdem_status cdem_run_grains_contacts(cdem_run_grains *g, cdem_fault *fault);
+/* grains_bonds.c */
+cdem_status cdem_run_grains_bonds(cdem_run_grains *g, cdem_fault *fault);
+/* grains_solver.c: the solver and its step; `look` of the engine */
+cdem_status cdem_run_grains_solver(cdem_run_grains *g, cdem_fault *fault);
+cdem_status cdem_run_grains_look(cdem_run_setup *run, cdem_fault *fault);
+
+/* ---- what is looked at ---- */
+
+/* grains_columns.c */
+void cdem_run_grains_columns(cdem_run_setup *run, cdem_run_row *row);
+/* grains_probes.c */
+const char *cdem_run_grains_unit(const cdem_case_probe *probe);
+cdem_status cdem_run_grains_probe(const cdem_run_grains *g, const cdem_case_probe *probe,
+                                  double *value, cdem_fault *fault);
+/* grains_pictures.c: which are wanted, and what they need of the start */
+cdem_status cdem_run_grains_pictures_init(cdem_run_grains *g, cdem_fault *fault);
+cdem_status cdem_run_grains_pictures(cdem_run_setup *run, const char *folder, cdem_fault *fault);
+
+/* Index of a material of the case; NULL: the first. Names were checked with the case. */
+int cdem_run_grains_material(const cdem_run_grains *g, const char *name);
+
+static inline const cdem_case_values *cdem_run_grains_values(const cdem_run_grains *g) {
+  return &g->run->cases.values;
+}
+
+#endif

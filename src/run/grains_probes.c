@@ -1,0 +1,111 @@
+/* Probes of grains: what is in a region, and the angle of the free surface. */
+#include "dem/surface.h"
+#include "run/grains.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { XX = 4, MAGNITUDE = 10 }; /* of `component`: x y z rotation xx yy zz yz xz xy magnitude */
+
+const char *cdem_run_grains_unit(const cdem_case_probe *probe) {
+  switch (probe->quantity) {
+  case CDEM_PROBE_VELOCITY:
+    return "m/s";
+  case CDEM_PROBE_CENTER:
+    return "m";
+  case CDEM_PROBE_STRESS:
+    return "Pa";
+  case CDEM_PROBE_MASS:
+    return "kg";
+  case CDEM_PROBE_SURFACE_ANGLE:
+    return "rad";
+  default:
+    return "";
+  }
+}
+
+/* 2-D: (s1 - s3)/(s1 + s3), 3-D: q/p; NaN without pressure. */
+static double stress_ratio(const cdem_assembly *assembly) {
+  return assembly->pressure > 0.0 ? assembly->deviator / assembly->pressure : NAN;
+}
+
+static cdem_region region_of(const cdem_case_probe *probe) {
+  cdem_region region;
+  memcpy(region.low, probe->region.low, sizeof region.low);
+  memcpy(region.high, probe->region.high, sizeof region.high);
+  return region;
+}
+
+static double stress_of(const double s[9], int component) {
+  static const int at[] = {0, 4, 8, 5, 2, 1}; /* xx yy zz yz xz xy, row-major */
+  return s[at[component - XX]];
+}
+
+static double of_vector(const double v[3], int component) {
+  return component == MAGNITUDE ? cdem_norm3(v) : v[component];
+}
+
+/* NaN where a mean is one of nothing. */
+static double counted(const cdem_count *count, const cdem_case_probe *probe) {
+  double mass = count->mass > 0.0 ? count->mass : NAN;
+  switch (probe->quantity) {
+  case CDEM_PROBE_COUNT:
+    return (double)count->grains;
+  case CDEM_PROBE_MASS:
+    return count->mass;
+  case CDEM_PROBE_CENTER:
+    return of_vector(count->first, probe->component) / mass;
+  default:
+    return of_vector(count->momentum, probe->component) / mass;
+  }
+}
+
+/* The range of the profile is that of the region along x, its axis the middle of it. */
+static cdem_status surface_angle(const cdem_run_grains *g, const cdem_case_probe *probe,
+                                 double *value, cdem_fault *fault) {
+  const cdem_case_region *r = &probe->region;
+  int upright = g->dim - 1;
+  cdem_surface surface = {0};
+  cdem_surface_options options = {.kind = (cdem_surface_kind)probe->surface};
+  bool cone = options.kind == CDEM_SURFACE_CONE;
+  double half = 0.5 * (r->high[0] - r->low[0]);
+  for (int k = 0; k < g->dim; k++)
+    if (r->high[k] > r->low[k])
+      options.origin[k] = k == upright ? r->low[k] : cone ? 0.5 * (r->low[k] + r->high[k]) : 0.0;
+  options.low = cone ? 0.0 : r->low[0];
+  options.high = half > 0.0 ? (cone ? half : r->high[0]) : options.low;
+  if (g->dim == 3 && !cone && r->high[1] > r->low[1]) {
+    options.side_low = r->low[1];
+    options.side_high = r->high[1];
+  }
+  CDEM_TRY(cdem_free_surface(&g->dem, &options, &surface, fault));
+  *value = options.kind == CDEM_SURFACE_SLOPE ? surface.angle[0] : surface.repose;
+  cdem_surface_release(&surface);
+  return CDEM_OK;
+}
+
+cdem_status cdem_run_grains_probe(const cdem_run_grains *g, const cdem_case_probe *probe,
+                                  double *value, cdem_fault *fault) {
+  const cdem_region region = region_of(probe);
+  cdem_count count = {0};
+  cdem_assembly assembly = {0};
+  switch (probe->quantity) {
+  case CDEM_PROBE_SURFACE_ANGLE:
+    return surface_angle(g, probe, value, fault);
+  case CDEM_PROBE_COUNT:
+  case CDEM_PROBE_MASS:
+  case CDEM_PROBE_VELOCITY:
+  case CDEM_PROBE_CENTER:
+    CDEM_TRY(cdem_count_region(&g->dem, &region, &count, fault));
+    *value = counted(&count, probe);
+    return CDEM_OK;
+  default:
+    CDEM_TRY(cdem_measure(&g->dem, &region, &assembly, fault));
+    *value = probe->quantity == CDEM_PROBE_SOLID          ? assembly.solid
+             : probe->quantity == CDEM_PROBE_COORDINATION ? assembly.coordination
+             : probe->quantity == CDEM_PROBE_STRESS_RATIO
+                 ? stress_ratio(&assembly)
+                 : stress_of(assembly.stress, probe->component);
+    return CDEM_OK;
+  }
+}

@@ -1,0 +1,22 @@
+/* Private to run: one row of history.csv on its way: declared and filled by one walk, so that they
+ * cannot part. */
+#ifndef CDEM_RUN_ROW_H
+#define CDEM_RUN_ROW_H
+
+#include "results/results.h"
+
+#include <stdbool.h>
+
+typedef struct {
+  cdem_table *table;
+  bool declare; /* else fill the last row */
+  int column;
+  cdem_status status; /* the first failure; nothing is put after it */
+  cdem_fault *fault;
+} cdem_run_row;
+
+/* The next column; while declaring, `value` is not looked at. NaN: no value. */
+__attribute__((format(printf, 4, 5))) void cdem_run_put(cdem_run_row *row, const char *unit,
+                                                        double value, const char *format, ...);
+
+#endif

@@ -1,0 +1,160 @@
+/* Grains through the door of a run: tables, bonds, cells, probes, failures. */
+#include "run/grains_box.h"
+
+/* Two bonded spheres turn about each other as one body: their distance stays, and the probe gives
+ * the momentum of all. */
+static void a_table_with_bonds_turns(void **state) {
+  (void)state;
+  write_case("two.csv", "x [mm],y [mm],z [mm],radius [mm],material\n"
+                        "-10,0,0,10,glass\n10,0,0,10,glass\n");
+  write_case("two.yaml", "end: 0.01 s\n"
+                         "grains:\n"
+                         "  dimension: 3\n"
+                         "  file: two.csv\n"
+                         "  materials: {steel: {}, glass: {density: 2500}}\n"
+                         "contacts: [{normal_stiffness: 1e6, shear_ratio: 0.5, friction: 0.3, "
+                         "restitution: 1}]\n"
+                         "bonds: [{between: [glass, glass], normal_stiffness: 1e7, "
+                         "shear_stiffness: 1e7}]\n"
+                         "initial: [{velocity: [0, 0, 2], spin: [0, 0, 1]}]\n"
+                         "probes:\n"
+                         "  up: {quantity: velocity, component: z}\n"
+                         "  height: {quantity: center, component: z}\n"
+                         "  one: {quantity: count, region: {low: [0, -1, -1], high: [1, 1, 1]}}\n"
+                         "results:\n"
+                         "  up: {of: up, take: last}\n"
+                         "  one: {of: one, take: last}\n"
+                         "  rise: {of: height, take: slope, against: [time, one], "
+                         "against_factor: 2, tolerance: 1e-9}\n"
+                         "  middle: {of: height, take: max, to: 5 ms}\n"
+                         "  late: {of: height, take: mean, from: 5 ms, factor: 10}\n"
+                         "  moving: {of: translation, take: min}\n"
+                         "  turning: {of: rotation, take: last}\n"
+                         "  broken: {of: bonds_broken, take: max}\n");
+  cdem_run_summary s = run_ok("two.yaml", "two", 0, NULL);
+  double mass = 2500.0 * 4.0 / 3.0 * 3.14159265358979323846 * 1e-6;
+  assert_int_equal(s.bonds, 1);
+  check_near(key_value(&s, "up"), 2.0, 1e-12, 0.0);
+  /* Rows are 1/400 of the end apart, and the window holds those at its ends. */
+  assert_true(s.results == 1 && s.failed == 0);
+  check_near(key_value(&s, "rise"), 2.0, 1e-9, 0.0);
+  check_near(key_value(&s, "middle"), 2.0 * 5e-3, 5e-3, 0.0);
+  check_near(key_value(&s, "late"), 10.0 * 2.0 * 7.5e-3, 5e-3, 0.0);
+  assert_true(key_value(&s, "one") == 1.0 && key_value(&s, "broken") == 0.0);
+  /* v = w r at the centres beside the 2 m/s; own spins keep turning with the pair. The bond gives
+   * and swings by m w^2 r/k = 1e-8 m, a millionth of the distance. */
+  check_near(key_value(&s, "moving"), mass * (4.0 + 1e-4), 1e-5, 0.0);
+  check_near(key_value(&s, "turning"), 2.0 * 0.5 * 0.4 * mass * 1e-4, 1e-3, 0.0);
+  cdem_run_summary_release(&s);
+}
+
+/* A periodic lattice that is pressed along y at a given rate: its cell follows, its stress is that
+ * of the springs: hexagonal rows with overlap e d/2 at vertical strain e. */
+static void a_cell_is_pressed(void **state) {
+  (void)state;
+  write_case("cell.yaml", "end: 0.1 s\n"
+                          "safety: 0.5\n"
+                          "grains:\n"
+                          "  dimension: 2\n"
+                          "  packing: {kind: cubic, low: [0, 0], high: [0.1, 0.1], radius: 5 mm}\n"
+                          "  materials: {sand: {density: 2000}}\n"
+                          "contacts: [{normal_stiffness: 1e5, shear_ratio: 0.5, friction: 0.3, "
+                          "damping_ratio: 0.5}]\n"
+                          "cell: {rate: {yy: -0.01 1/s, xx: -0.01 1/s}}\n"
+                          "history_every: 1 ms\n"
+                          "probes: {ratio: {quantity: stress_ratio}}\n"
+                          "results:\n"
+                          "  ratio: {of: ratio, take: last}\n"
+                          "  height: {of: cell.y, take: last}\n"
+                          "  stress: {of: stress.yy, take: last}\n"
+                          "  solid: {of: solid, take: last}\n"
+                          "  coordination: {of: coordination, take: last}\n"
+                          "  error: {of: energy_error, take: max}\n");
+  cdem_run_summary s = run_ok("cell.yaml", "cell", 0, NULL);
+  double strain = 1.0 - exp(-1e-3); /* of 0.01 1/s in 0.1 s */
+  double mass = 2000.0 * 3.14159265358979323846 * 25e-6;
+  double dashpot = 2.0 * 0.5 * sqrt(0.5 * mass * 1e5);
+  check_near(key_value(&s, "height"), 0.1 * (1.0 - strain), 1e-7, 0.0);
+  /* each column of discs carries kn (strain d) + c (rate d) over its width (1 - strain) d; the jerk
+   * of the start, when grains rest in a cell that moves, has died away */
+  check_near(key_value(&s, "stress"), -(1e5 * strain + dashpot * 0.01) / (1.0 - strain), 1e-4, 0.0);
+  check_near(key_value(&s, "solid"),
+             3.14159265358979323846 / 4.0 / ((1.0 - strain) * (1.0 - strain)), 1e-6, 0.0);
+  assert_true(key_value(&s, "coordination") == 4.0);
+  /* pressed alike along both axes, (s1 - s3)/(s1 + s3) is nought; along one, one */
+  assert_true(fabs(key_value(&s, "ratio")) < 1e-9);
+  cdem_run_summary_release(&s);
+  s = run_ok("cell.yaml", "cell", 1, &(const char *){"cell.rate={yy: -0.01 1/s}"});
+  check_near(key_value(&s, "ratio"), 1.0, 1e-9, 0.0);
+  cdem_run_summary_release(&s);
+}
+
+/* The case in the folder names table and surface from the root on, both on one line here, and runs
+ * from anywhere; after an override it is written anew. */
+static void the_kept_case_runs_from_anywhere(void **state) {
+  (void)state;
+  const char *const override = "end=2 ms";
+  mkdir(in_scratch("sub"), 0777);
+  write_case("sub/one.csv", "x [m],y [m],z [m],radius [m]\n0,0,0.01,0.01\n");
+  write_case("sub/floor.stl", "solid f\nfacet normal 0 0 1\nouter loop\nvertex -1 -1 0\n"
+                              "vertex 1 -1 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid f\n");
+  write_case(
+      "sub/one.yaml",
+      "{end: 1 ms, gravity: [0, 0, -10], contacts: [{normal_stiffness: 1e5, damping_ratio: 0}],\n"
+      " walls: {floor: {shape: mesh, file: floor.stl}}, grains: {dimension: 3, file: "
+      "'one.csv', materials: {sand: {density: 2000}}}}\n");
+  for (int overrides = 0; overrides < 2; overrides++) {
+    cdem_run_summary a = run_ok("sub/one.yaml", "kept", overrides, &override);
+    assert_true(holds("kept/case.yaml", "sub/one.csv") && holds("kept/case.yaml", "sub/floor.stl"));
+    cdem_run_summary b = run_ok("kept/case.yaml", "copy", 0, NULL);
+    assert_true(same_files("kept/history.csv", "copy/history.csv"));
+    assert_true(same_files("kept/case.yaml", "copy/case.yaml"));
+    cdem_run_summary_release(&a);
+    cdem_run_summary_release(&b);
+  }
+}
+
+/* ---- failures on the way ---- */
+
+static void failures_name_their_place(void **state) {
+  (void)state;
+  write_case("box.yaml", BOX);
+  check_bad("box.yaml", "step=1", "a step of 1 s is unstable");
+  check_bad("box.yaml", "walls.floor.center=[0,0.1]", "beyond wall 'floor'");
+  check_bad(
+      "box.yaml",
+      "contacts=[{between: [sand, sand], normal_stiffness: 1, shear_ratio: 1, restitution: 1}]",
+      "no entry fits 'sand' and 'steel'");
+  check_bad("box.yaml", "grains.packing.seed=-1", "seed is -1");
+  check_bad("box.yaml", "grains.twisting=spring", "discs do not twist");
+  check_bad("box.yaml", "grains.pictures=[chains, chain]",
+            "there is no picture 'chain'; did you mean 'chains'? choose from radius, speed");
+}
+
+/* Grains that fall for ever are never balanced, and the run says so. */
+static void nothing_to_balance(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  cdem_run_summary summary;
+  const char *const fall[] = {"analysis=relaxation", "most_steps=400"};
+  write_case("fall.yaml", "gravity: [0, -10]\n"
+                          "grains:\n"
+                          "  dimension: 2\n"
+                          "  packing: {kind: loose, high: [0.1, 0.1], radius: 5 mm, count: 20}\n"
+                          "  materials: {sand: {density: 2000}}\n"
+                          "contacts: [{normal_stiffness: 1e5, shear_ratio: 1, restitution: 1}]\n");
+  check_fails(run_case("fall.yaml", "falling", 2, fall, &summary, &fault), CDEM_NUMERIC,
+              "not balanced after 400 steps");
+  assert_true(is_there("falling/history.csv") && !is_there("falling/summary.json"));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_table_with_bonds_turns),
+      cmocka_unit_test(a_cell_is_pressed),
+      cmocka_unit_test(the_kept_case_runs_from_anywhere),
+      cmocka_unit_test(failures_name_their_place),
+      cmocka_unit_test(nothing_to_balance),
+  };
+  return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
+}
