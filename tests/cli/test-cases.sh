@@ -6,7 +6,8 @@ cdem=$1/cdem cases=$2/data/cases
 shift 2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-[ $# -gt 0 ] || set -- cantilever plate-with-hole bar-wave compression brazilian-disc notched-beam slope-joint block-stack impact
+[ $# -gt 0 ] || set -- cantilever plate-with-hole bar-wave compression brazilian-disc notched-beam slope-joint block-stack impact angle-of-repose biaxial \
+  settling hopper drum
 failed=0
 for name; do
   if ! "$cdem" run -q "$cases/$name.yaml" -o "$work/$name" >"$work/out" 2>&1; then
