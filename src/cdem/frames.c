@@ -1,6 +1,7 @@
 #include "cdem/frames.h"
 
 #include "base/memory.h"
+#include "results/frame_draft.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -26,57 +27,11 @@ static uint8_t vtk_type(cdem_shape shape) {
   }
 }
 
-/* What a frame is made of: arrays by the dozen, released together. */
-enum { ARRAYS = 24, FIELDS = 20 };
-typedef struct {
-  void *array[ARRAYS];
-  int arrays;
-  cdem_field field[FIELDS];
-  int fields;
-  bool failed;
-  cdem_fault *fault;
-} room;
-
-static void *take(room *r, int64_t count, size_t size) {
-  void *made = r->failed ? NULL : cdem_allocate(count, size, r->fault);
-  if (made == NULL)
-    r->failed = true;
-  else
-    r->array[r->arrays++] = made;
-  return made;
-}
-
-static void room_release(room *r) {
-  for (int i = 0; i < r->arrays; i++)
-    free(r->array[i]);
-}
-
-static cdem_field *add(room *r, const char *name, const char *unit, bool on_cells, int components,
-                       cdem_field_type type, const void *data) {
-  cdem_field *field = &r->field[r->fields++];
-  *field = (cdem_field){.name = name,
-                        .unit = unit,
-                        .on_cells = on_cells,
-                        .components = components,
-                        .type = type,
-                        .data = data};
-  return field;
-}
-
-static cdem_status hand_out(const cdem_solver *solver, const room *r, cdem_frame *frame,
-                            int64_t index, const cdem_frame_sink *sink) {
-  frame->index = index;
-  frame->time = solver->time;
-  frame->fields = r->fields;
-  frame->field = r->field;
-  return sink->frame(sink->context, frame, r->fault);
-}
-
 /* ---- body ---- */
 
 /* Vectors of the nodes, three components each. */
-static double *vectors(const cdem_solver *solver, room *r, const double *from) {
-  double *to = take(r, 3 * (int64_t)solver->nodes, sizeof *to);
+static double *vectors(const cdem_solver *solver, cdem_frame_draft *r, const double *from) {
+  double *to = cdem_frame_draft_take(r, 3 * (int64_t)solver->nodes, sizeof *to);
   int dim = solver->options->body->model->dimension;
   for (size_t n = 0; to != NULL && n < (size_t)solver->nodes; n++)
     for (int k = 0; k < dim; k++)
@@ -84,9 +39,9 @@ static double *vectors(const cdem_solver *solver, room *r, const double *from) {
   return to;
 }
 
-static double *places(const cdem_solver *solver, room *r, const double *displacement) {
+static double *places(const cdem_solver *solver, cdem_frame_draft *r, const double *displacement) {
   const double *xyz = solver->options->body->model->mesh->xyz;
-  double *to = take(r, 3 * (int64_t)solver->nodes, sizeof *to);
+  double *to = cdem_frame_draft_take(r, 3 * (int64_t)solver->nodes, sizeof *to);
   for (size_t i = 0; to != NULL && i < 3 * (size_t)solver->nodes; i++)
     to[i] = xyz[i] + displacement[i];
   return to;
@@ -102,33 +57,33 @@ static void reorder(double *tensor, int64_t cells) {
   }
 }
 
-static void body_points(const cdem_solver *solver, room *r, cdem_frame *frame) {
+static void body_points(const cdem_solver *solver, cdem_frame_draft *r, cdem_frame *frame) {
   int64_t nodes = solver->nodes;
   double *displacement = vectors(solver, r, solver->u);
-  double *at = take(r, nodes * solver->dofs, sizeof *at);
+  double *at = cdem_frame_draft_take(r, nodes * solver->dofs, sizeof *at);
   if (r->failed)
     return;
   cdem_solver_velocity(solver, at);
   double *velocity = vectors(solver, r, at);
   frame->points = nodes;
   frame->xyz = places(solver, r, displacement);
-  add(r, "displacement", "m", false, 3, CDEM_FIELD_REAL, displacement);
-  add(r, "velocity", "m/s", false, 3, CDEM_FIELD_REAL, velocity);
+  cdem_frame_draft_add(r, "displacement", "m", false, 3, CDEM_FIELD_REAL, displacement);
+  cdem_frame_draft_add(r, "velocity", "m/s", false, 3, CDEM_FIELD_REAL, velocity);
   if (solver->dofs == solver->options->body->model->dimension)
     return;
-  double *turn = take(r, nodes, sizeof *turn);
+  double *turn = cdem_frame_draft_take(r, nodes, sizeof *turn);
   for (int64_t n = 0; !r->failed && n < nodes; n++)
     turn[n] = solver->u[3 * n + 2];
-  add(r, "micro_rotation", "rad", false, 1, CDEM_FIELD_REAL, turn);
+  cdem_frame_draft_add(r, "micro_rotation", "rad", false, 1, CDEM_FIELD_REAL, turn);
 }
 
-static void body_cells(const cdem_solver *solver, room *r, cdem_frame *frame) {
+static void body_cells(const cdem_solver *solver, cdem_frame_draft *r, cdem_frame *frame) {
   const cdem_model *model = solver->options->body->model;
-  uint8_t *type = take(r, model->cells, sizeof *type);
-  int64_t *offset = take(r, model->cells + 1, sizeof *offset), count = 0;
+  uint8_t *type = cdem_frame_draft_take(r, model->cells, sizeof *type);
+  int64_t *offset = cdem_frame_draft_take(r, model->cells + 1, sizeof *offset), count = 0;
   for (int32_t c = 0; c < model->cells; c++)
     count += cdem_shape_get((cdem_shape)model->mesh->cell_shape[model->cell[c]])->nodes;
-  int32_t *node = take(r, count, sizeof *node);
+  int32_t *node = cdem_frame_draft_take(r, count, sizeof *node);
   if (r->failed)
     return;
   for (int32_t c = 0; c < model->cells; c++) {
@@ -170,17 +125,19 @@ static void rotation_vector(const double r[9], double vector[3]) {
     vector[k] = size > 0.0 ? part[k] * angle / size : 0.0;
 }
 
-static void body_fields(const cdem_solver *solver, room *r) {
+static void body_fields(const cdem_solver *solver, cdem_frame_draft *r) {
   const cdem_model *model = solver->options->body->model;
   const cdem_blocks *blocks = solver->options->blocks;
   int64_t cells = model->cells;
-  cdem_body_fields fields = {.stress = take(r, 6 * cells, sizeof(double)),
-                             .strain = take(r, 6 * cells, sizeof(double)),
-                             .energy = take(r, CDEM_CLASSES * cells, sizeof(double)),
-                             .pair_force = take(r, CDEM_CLASSES * cells, sizeof(double)),
-                             .rotation = take(r, 9 * cells, sizeof(double))};
-  double *turn = take(r, 3 * cells, sizeof *turn);
-  int32_t *block = take(r, cells, sizeof *block), *material = take(r, cells, sizeof *material);
+  cdem_body_fields fields = {
+      .stress = cdem_frame_draft_take(r, 6 * cells, sizeof(double)),
+      .strain = cdem_frame_draft_take(r, 6 * cells, sizeof(double)),
+      .energy = cdem_frame_draft_take(r, CDEM_CLASSES * cells, sizeof(double)),
+      .pair_force = cdem_frame_draft_take(r, CDEM_CLASSES * cells, sizeof(double)),
+      .rotation = cdem_frame_draft_take(r, 9 * cells, sizeof(double))};
+  double *turn = cdem_frame_draft_take(r, 3 * cells, sizeof *turn);
+  int32_t *block = cdem_frame_draft_take(r, cells, sizeof *block),
+          *material = cdem_frame_draft_take(r, cells, sizeof *material);
   if (r->failed)
     return;
   cdem_body_cell_fields(solver->options->body, solver->u, &fields);
@@ -191,32 +148,34 @@ static void body_fields(const cdem_solver *solver, room *r) {
       fields.strain[6 * c + k] *= 0.5;
   reorder(fields.stress, cells);
   reorder(fields.strain, cells);
-  add(r, "stress", "Pa", true, 6, CDEM_FIELD_REAL, fields.stress);
-  add(r, "strain", "", true, 6, CDEM_FIELD_REAL, fields.strain);
-  add(r, "rotation", "rad", true, 3, CDEM_FIELD_REAL, turn);
+  cdem_frame_draft_add(r, "stress", "Pa", true, 6, CDEM_FIELD_REAL, fields.stress);
+  cdem_frame_draft_add(r, "strain", "", true, 6, CDEM_FIELD_REAL, fields.strain);
+  cdem_frame_draft_add(r, "rotation", "rad", true, 3, CDEM_FIELD_REAL, turn);
   /* By spring class: edge, face, body. */
-  add(r, "spring_energy", "J", true, CDEM_CLASSES, CDEM_FIELD_REAL, fields.energy);
-  add(r, "spring_force", "N", true, CDEM_CLASSES, CDEM_FIELD_REAL, fields.pair_force);
+  cdem_frame_draft_add(r, "spring_energy", "J", true, CDEM_CLASSES, CDEM_FIELD_REAL, fields.energy);
+  cdem_frame_draft_add(r, "spring_force", "N", true, CDEM_CLASSES, CDEM_FIELD_REAL,
+                       fields.pair_force);
   for (int64_t c = 0; c < cells; c++) {
     block[c] = blocks != NULL ? blocks->block[model->cell[c]] : 0;
     material[c] = model->material[c];
   }
-  add(r, "material", "", true, 1, CDEM_FIELD_INT32, material);
+  cdem_frame_draft_add(r, "material", "", true, 1, CDEM_FIELD_INT32, material);
   if (blocks != NULL)
-    add(r, "block", "", true, 1, CDEM_FIELD_INT32, block);
+    cdem_frame_draft_add(r, "block", "", true, 1, CDEM_FIELD_INT32, block);
 }
 
 static cdem_status body_frame(const cdem_solver *solver, int64_t index, const cdem_frame_sink *sink,
                               cdem_fault *fault) {
-  room r = {.fault = fault};
+  cdem_frame_draft r = {.fault = fault};
   cdem_frame frame = {.set = "body"};
   body_points(solver, &r, &frame);
   if (!r.failed)
     body_cells(solver, &r, &frame);
   if (!r.failed)
     body_fields(solver, &r);
-  cdem_status status = r.failed ? CDEM_MEMORY : hand_out(solver, &r, &frame, index, sink);
-  room_release(&r);
+  frame.index = index;
+  frame.time = solver->time;
+  cdem_status status = cdem_frame_draft_send(&r, &frame, sink);
   return status;
 }
 
@@ -259,7 +218,7 @@ static void face_shape(const cdem_solver *solver, const cdem_face_pair *pair, do
     }
 }
 
-static void face_arrays(room *r, int64_t faces, face_fields *to) {
+static void face_arrays(cdem_frame_draft *r, int64_t faces, face_fields *to) {
   double **real[] = {&to->opening, &to->slip, &to->normal, &to->shear, &to->damage};
   uint8_t **byte[] = {&to->state, &to->open, &to->released};
   static const char *const name[] = {"opening", "slip", "normal_traction", "shear_traction",
@@ -269,23 +228,23 @@ static void face_arrays(room *r, int64_t faces, face_fields *to) {
   static const char *const open[] = {"closed", "open"};
   static const char *const released[] = {"joined", "released"};
   for (int k = 0; k < 5; k++)
-    *real[k] = take(r, faces, sizeof(double));
+    *real[k] = cdem_frame_draft_take(r, faces, sizeof(double));
   for (int k = 0; k < 3; k++)
-    *byte[k] = take(r, faces, sizeof(uint8_t));
-  cdem_field *f = add(r, "state", "", true, 1, CDEM_FIELD_UINT8, to->state);
+    *byte[k] = cdem_frame_draft_take(r, faces, sizeof(uint8_t));
+  cdem_field *f = cdem_frame_draft_add(r, "state", "", true, 1, CDEM_FIELD_UINT8, to->state);
   f->states = CDEM_INTERFACE_STATES;
   f->state = state;
-  f = add(r, "open", "", true, 1, CDEM_FIELD_UINT8, to->open);
+  f = cdem_frame_draft_add(r, "open", "", true, 1, CDEM_FIELD_UINT8, to->open);
   f->states = 2;
   f->state = open;
-  f = add(r, "released", "", true, 1, CDEM_FIELD_UINT8, to->released);
+  f = cdem_frame_draft_add(r, "released", "", true, 1, CDEM_FIELD_UINT8, to->released);
   f->states = 2;
   f->state = released;
   for (int k = 0; k < 5; k++)
-    add(r, name[k], unit[k], true, 1, CDEM_FIELD_REAL, *real[k]);
+    cdem_frame_draft_add(r, name[k], unit[k], true, 1, CDEM_FIELD_REAL, *real[k]);
 }
 
-static void faces(const cdem_solver *solver, const cdem_interface_fields *f, room *r,
+static void faces(const cdem_solver *solver, const cdem_interface_fields *f, cdem_frame_draft *r,
                   cdem_frame *frame) {
   const cdem_blocks *blocks = solver->options->blocks;
   int64_t count = 0;
@@ -293,13 +252,14 @@ static void faces(const cdem_solver *solver, const cdem_interface_fields *f, roo
     count += p == 0 || f->pair[p] != f->pair[p - 1];
   face_fields to = {0};
   face_arrays(r, count, &to);
-  double *xyz = take(r, 3 * f->points, sizeof *xyz);
-  uint8_t *type = take(r, count, sizeof *type);
-  int64_t *offset = take(r, count + 1, sizeof *offset);
-  int32_t *node = take(r, f->points, sizeof *node), *law = take(r, count, sizeof *law);
+  double *xyz = cdem_frame_draft_take(r, 3 * f->points, sizeof *xyz);
+  uint8_t *type = cdem_frame_draft_take(r, count, sizeof *type);
+  int64_t *offset = cdem_frame_draft_take(r, count + 1, sizeof *offset);
+  int32_t *node = cdem_frame_draft_take(r, f->points, sizeof *node),
+          *law = cdem_frame_draft_take(r, count, sizeof *law);
   if (r->failed)
     return;
-  add(r, "law", "", true, 1, CDEM_FIELD_INT32, law);
+  cdem_frame_draft_add(r, "law", "", true, 1, CDEM_FIELD_INT32, law);
   static const uint8_t types[] = {0, 0, 3, 5, 9};
   int64_t face = 0;
   for (int64_t p = 0; p < f->points; face++) {
@@ -324,13 +284,14 @@ static void faces(const cdem_solver *solver, const cdem_interface_fields *f, roo
 
 static cdem_status interfaces_frame(const cdem_solver *solver, int64_t index,
                                     const cdem_frame_sink *sink, cdem_fault *fault) {
-  room r = {.fault = fault};
+  cdem_frame_draft r = {.fault = fault};
   cdem_frame frame = {.set = "interfaces"};
   cdem_interface_fields fields = {0};
   CDEM_TRY(cdem_interfaces_fields(solver->options->interfaces, solver->u, &fields, fault));
   faces(solver, &fields, &r, &frame);
-  cdem_status status = r.failed ? CDEM_MEMORY : hand_out(solver, &r, &frame, index, sink);
-  room_release(&r);
+  frame.index = index;
+  frame.time = solver->time;
+  cdem_status status = cdem_frame_draft_send(&r, &frame, sink);
   cdem_interface_fields_release(&fields);
   return status;
 }
@@ -340,12 +301,12 @@ static cdem_status interfaces_frame(const cdem_solver *solver, int64_t index,
 static cdem_status contacts_frame(const cdem_solver *solver, int64_t index,
                                   const cdem_frame_sink *sink, cdem_fault *fault) {
   static const char *const sliding[] = {"sticking", "sliding"};
-  room r = {.fault = fault};
+  cdem_frame_draft r = {.fault = fault};
   cdem_contact_fields f = {0};
   CDEM_TRY(cdem_contact_fields_get(solver->options->contact, &f, fault));
-  uint8_t *type = take(&r, f.contacts, sizeof *type);
-  int64_t *offset = take(&r, f.contacts + 1, sizeof *offset);
-  int32_t *node = take(&r, f.contacts, sizeof *node);
+  uint8_t *type = cdem_frame_draft_take(&r, f.contacts, sizeof *type);
+  int64_t *offset = cdem_frame_draft_take(&r, f.contacts + 1, sizeof *offset);
+  int32_t *node = cdem_frame_draft_take(&r, f.contacts, sizeof *node);
   cdem_frame frame = {.set = "contacts",
                       .points = f.contacts,
                       .xyz = f.position,
@@ -358,13 +319,15 @@ static cdem_status contacts_frame(const cdem_solver *solver, int64_t index,
     offset[k + 1] = k + 1;
     node[k] = (int32_t)k;
   }
-  add(&r, "force", "N", false, 3, CDEM_FIELD_REAL, f.force);
-  add(&r, "normal", "", false, 3, CDEM_FIELD_REAL, f.normal);
-  cdem_field *field = add(&r, "sliding", "", false, 1, CDEM_FIELD_UINT8, f.sliding);
+  cdem_frame_draft_add(&r, "force", "N", false, 3, CDEM_FIELD_REAL, f.force);
+  cdem_frame_draft_add(&r, "normal", "", false, 3, CDEM_FIELD_REAL, f.normal);
+  cdem_field *field =
+      cdem_frame_draft_add(&r, "sliding", "", false, 1, CDEM_FIELD_UINT8, f.sliding);
   field->states = 2;
   field->state = sliding;
-  cdem_status status = r.failed ? CDEM_MEMORY : hand_out(solver, &r, &frame, index, sink);
-  room_release(&r);
+  frame.index = index;
+  frame.time = solver->time;
+  cdem_status status = cdem_frame_draft_send(&r, &frame, sink);
   cdem_contact_fields_release(&f);
   return status;
 }
