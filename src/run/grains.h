@@ -57,7 +57,8 @@ cdem_status cdem_run_grains_materials(cdem_run_grains *g, cdem_fault *fault);
 cdem_status cdem_run_grains_contacts(cdem_run_grains *g, cdem_fault *fault);
 /* grains_bonds.c */
 cdem_status cdem_run_grains_bonds(cdem_run_grains *g, cdem_fault *fault);
-/* grains_solver.c: the solver and its step; `look` of the engine */
+/* grains_solver.c: the solver and its step; `look` of the engine; threads for so many grains */
+int cdem_run_grains_threads(const cdem_run_grains *g);
 cdem_status cdem_run_grains_solver(cdem_run_grains *g, cdem_fault *fault);
 cdem_status cdem_run_grains_look(cdem_run_setup *run, cdem_fault *fault);
 

@@ -41,12 +41,13 @@ static void fill_options(cdem_run_grains *g) {
     g->options.gravity[k] = v->gravity[k];
 }
 
-/* A team is worth its while from some thousand grains on. */
-static int worthwhile_threads(const cdem_run_grains *g) {
+/* A team is worth its while from some thousand grains on; below, waiting for each other costs more,
+ * many times more where other work has the processors. */
+int cdem_run_grains_threads(const cdem_run_grains *g) {
   enum { GRAINS_A_THREAD = 2000 };
   int asked = g->run->options->threads, most = omp_get_max_threads();
-  int64_t worth = 1 + g->grains.grains / GRAINS_A_THREAD;
-  return asked > 0 ? asked : worth < most ? (int)worth : most;
+  int64_t worth = g->grains.grains / GRAINS_A_THREAD;
+  return asked > 0 ? asked : worth < 1 ? 1 : worth < most ? (int)worth : most;
 }
 
 /* The key that a failure of the solver's making has to do with. */
@@ -78,7 +79,7 @@ cdem_status cdem_run_grains_solver(cdem_run_grains *g, cdem_fault *fault) {
   cdem_fault local = {0};
   if (!cdem_case_given(&g->run->cases, "safety"))
     v->safety = 0.1;
-  g->run->threads = worthwhile_threads(g);
+  g->run->threads = cdem_run_grains_threads(g);
   fill_options(g);
   cdem_status status = cdem_dem_init(&g->options, &g->dem, &local);
   if (status == CDEM_INPUT)

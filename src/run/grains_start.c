@@ -62,7 +62,7 @@ static cdem_status press(cdem_run_grains *g, const cdem_packing_options *options
                                 .stiffness = isnan(wanted->stiffness) ? 0.0 : wanted->stiffness,
                                 .friction = wanted->friction,
                                 .restitution = wanted->restitution,
-                                .threads = g->run->options->threads,
+                                .threads = cdem_run_grains_threads(g),
                                 .progress = options->progress};
   cdem_compacted reached = {0};
   memcpy(compaction.periodic, options->periodic, sizeof compaction.periodic);
