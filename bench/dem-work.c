@@ -194,10 +194,10 @@ static void make_box(const work *w, const char *path) {
     cdem_dem dem;
     model_init(w, &grains, phase == 0 ? w->kn / 16.0 : w->kn, 0, &m);
     m.options.step = phase == 0 ? 4.0 * w->step : w->step;
-    m.options.mass_damping = phase == 0 ? 1.0 : 20.0;
+    m.options.mass_damping = phase == 0 ? 1.0 : 200.0;
     double start = now();
     give_up(cdem_dem_init(&m.options, &dem, &fault), &fault);
-    give_up(cdem_dem_steps(&dem, phase == 0 ? 20000 : 6000, &fault), &fault);
+    give_up(cdem_dem_steps(&dem, phase == 0 ? 20000 : 12000, &fault), &fault);
     fprintf(stderr, "settling, phase %d: %.0f s, unbalanced %.2g\n", phase + 1, now() - start,
             cdem_dem_unbalanced(&dem));
     cdem_dem_look(&dem, &(cdem_dem_view){.xyz = grains.xyz});
