@@ -16,7 +16,7 @@ static void lossy(model *m, int dim, const char *law, double restitution) {
   model_word(m, CDEM_LAW_rolling_length, 5e-4);
 }
 
-/* The issue's bound by default: 1e-3 of the largest term, at every report of a heap that falls
+/* The book closes by default to 1e-3 of the largest term, at every report of a heap that falls
  * together. */
 static void the_book_closes_by_default(void **state) {
   (void)state;
