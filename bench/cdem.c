@@ -9,6 +9,7 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "base/base.h"
+#include "bench.h"
 #include "cdem/body.h"
 
 #include <inttypes.h>
@@ -20,16 +21,7 @@
 #include <time.h>
 
 static double now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static void give_up(cdem_status status, const cdem_fault *fault) {
-  if (status == CDEM_OK)
-    return;
-  fprintf(stderr, "error: %s\n", fault->message);
-  exit(cdem_status_exit_code(status));
+  return clock_now(CLOCK_MONOTONIC);
 }
 
 /* Bytes a second of the triad, the best of some runs. */

@@ -4,6 +4,7 @@
  * 1 and more threads. Nothing is asserted. */
 #include "cdem/contact.h"
 
+#include "bench.h"
 #include "cdem/blocks.h"
 
 #include <stdio.h>
@@ -12,12 +13,6 @@
 #include <time.h>
 
 enum { STEPS = 40 };
-
-static double now(clockid_t clock) {
-  struct timespec time;
-  clock_gettime(clock, &time);
-  return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 static cdem_status run(const cdem_blocks *blocks, int threads, cdem_fault *fault) {
   int64_t count = 3 * (int64_t)blocks->mesh.nodes;
@@ -41,19 +36,19 @@ static cdem_status run(const cdem_blocks *blocks, int threads, cdem_fault *fault
   for (int32_t n = 0; n < blocks->mesh.nodes; n++)
     for (int k = 0; k < 3; k++)
       u[3 * n + k] = 1e-4 * ((blocks->node_block[n] * 7 + k) % 5 - 2);
-  double start = now(CLOCK_MONOTONIC);
+  double start = clock_now(CLOCK_MONOTONIC);
   CDEM_TRY(cdem_contact_forces(&contact, u, v, 0.0, force, fault));
-  double first = now(CLOCK_MONOTONIC) - start;
+  double first = clock_now(CLOCK_MONOTONIC) - start;
   int64_t contacts = 0;
-  start = now(CLOCK_MONOTONIC);
-  double spent = now(CLOCK_PROCESS_CPUTIME_ID);
+  start = clock_now(CLOCK_MONOTONIC);
+  double spent = clock_now(CLOCK_PROCESS_CPUTIME_ID);
   for (int step = 0; step < STEPS; step++) {
     for (int64_t i = 0; i < count; i++)
       u[i] += 1e-7 * (double)(i % 3);
     CDEM_TRY(cdem_contact_forces(&contact, u, v, 0.0, force, fault));
   }
-  double time = now(CLOCK_MONOTONIC) - start;
-  spent = now(CLOCK_PROCESS_CPUTIME_ID) - spent;
+  double time = clock_now(CLOCK_MONOTONIC) - start;
+  spent = clock_now(CLOCK_PROCESS_CPUTIME_ID) - spent;
   cdem_contact_totals totals;
   cdem_contact_sum(&contact, &totals);
   contacts = STEPS * totals.contacts;

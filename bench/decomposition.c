@@ -16,6 +16,7 @@
  *
  * The bound takes every operation for half a fused multiply-add, which no division is. */
 #include "base/simd.h"
+#include "bench.h"
 #include "springs/springs.h"
 
 #include <lapacke.h>
@@ -40,9 +41,7 @@ double bench_multiply_add(int64_t rounds);
 void bench_fill(double *restrict to, int64_t vectors, double value);
 
 static double now(void) {
-  struct timespec time;
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+  return clock_now(CLOCK_MONOTONIC);
 }
 
 static int compare(const void *a, const void *b) {

@@ -9,6 +9,7 @@
  * A rate counts the steps alone, without set-up, as the loop timers of the others do.
  */
 #include "base/random.h"
+#include "bench.h"
 #include "dem/dem.h"
 
 #include <inttypes.h>
@@ -31,16 +32,7 @@ typedef struct {
 } work;
 
 static double now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static void give_up(cdem_status status, const cdem_fault *fault) {
-  if (status == CDEM_OK)
-    return;
-  fprintf(stderr, "error: %s\n", fault->message);
-  exit(cdem_status_exit_code(status));
+  return clock_now(CLOCK_MONOTONIC);
 }
 
 /* Spacing of rows and half that of points in a row: touching less an overlap of 2e-4 radii, so that

@@ -16,6 +16,7 @@
 
 #include "base/random.h"
 #include "base/simd.h"
+#include "bench.h"
 #include "dem/solver_store.h"
 
 #include <stdio.h>
@@ -27,16 +28,7 @@ enum { PHASES = 8 };
 
 /* With one thread its processor time, which a loaded machine leaves alone. */
 static double now(bool alone) {
-  struct timespec time;
-  clock_gettime(alone ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &time);
-  return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-static void give_up(cdem_status status, const cdem_fault *fault) {
-  if (status == CDEM_OK)
-    return;
-  fprintf(stderr, "error: %s\n", fault->message);
-  exit(cdem_status_exit_code(status));
+  return clock_now(alone ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC);
 }
 
 typedef struct {

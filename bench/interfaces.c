@@ -5,6 +5,8 @@
  */
 #include "cdem/interfaces.h"
 
+#include "bench.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,16 +15,7 @@
 enum { STEPS = 20 };
 
 static double now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static void give_up(cdem_status status, const cdem_fault *fault) {
-  if (status == CDEM_OK)
-    return;
-  fprintf(stderr, "error: %s\n", fault->message);
-  exit(cdem_status_exit_code(status));
+  return clock_now(CLOCK_MONOTONIC);
 }
 
 /* Every block moves a little on its own; `size` m a step says whether that is elastic. */

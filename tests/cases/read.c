@@ -7,7 +7,7 @@ static void all_kinds_of_values(void **state) {
   cdem_case read = {0};
   check_ok(read_text(FULL, &read, &fault));
   const cdem_case_values *v = &read.values;
-  assert_string_equal(read.path, case_path);
+  assert_string_equal(read.path, in_scratch("c.yaml"));
   assert_string_equal(read.source, FULL);
   assert_string_equal(v->title, "Everything");
   assert_int_equal(v->analysis, CDEM_ANALYSIS_DYNAMIC);
@@ -178,15 +178,15 @@ static void overrides_replace_and_add(void **state) {
   cdem_fault fault = {0};
   cdem_case read = {0}, again = {0};
   write_bytes(FULL, strlen(FULL));
-  check_fails(cdem_read_case(case_path, 3, override, &read, &fault), CDEM_INPUT,
+  check_fails(cdem_read_case(in_scratch("c.yaml"), 3, override, &read, &fault), CDEM_INPUT,
               "override 'title=New: with colon': 'title' must be a text, not a map");
-  check_ok(cdem_read_case(case_path, 2, override, &read, &fault));
+  check_ok(cdem_read_case(in_scratch("c.yaml"), 2, override, &read, &fault));
   cdem_case_release(&read);
   const char *good[11];
   for (int i = 0, n = 0; i < 12; i++)
     if (i != 2)
       good[n++] = override[i];
-  check_ok(cdem_read_case(case_path, 11, good, &read, &fault));
+  check_ok(cdem_read_case(in_scratch("c.yaml"), 11, good, &read, &fault));
   char *source = strdup(read.source);
   check_ok(read_text(source, &again, &fault)); /* what is written stands alone */
   free(source);
@@ -243,7 +243,7 @@ static void failures_show_the_place(void **state) {
   snprintf(expected, sizeof expected,
            "%s:6:13: no group 'bottom'\n    - {group: bottom, displacement: {x: 0}}\n"
            "              ^~~~~~",
-           case_path);
+           in_scratch("c.yaml"));
   assert_string_equal(fault.message, expected);
   static const struct {
     const char *key, *place;

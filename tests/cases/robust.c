@@ -36,7 +36,7 @@ static bool survives(const char *text, size_t bytes) {
   cdem_fault fault = {0};
   cdem_case read = {0};
   write_bytes(text, bytes);
-  cdem_status status = cdem_read_case(case_path, 1, override, &read, &fault);
+  cdem_status status = cdem_read_case(in_scratch("c.yaml"), 1, override, &read, &fault);
   if (status != CDEM_OK) {
     assert_int_equal(status, CDEM_INPUT);
     assert_true(fault.message[0] != '\0' && read.path == NULL);
@@ -93,7 +93,7 @@ static void lack_of_memory(void **state) {
     cdem_fault fault = {0};
     cdem_case read = {0};
     cdem_memory_fail_after(after);
-    cdem_status status = cdem_read_case(case_path, 3, override, &read, &fault);
+    cdem_status status = cdem_read_case(in_scratch("c.yaml"), 3, override, &read, &fault);
     cdem_memory_fail_after(-1);
     done = status == CDEM_OK;
     assert_true(done || (status == CDEM_MEMORY && read.path == NULL));

@@ -3,30 +3,10 @@
 #define CDEM_TESTS_CASES_SUPPORT_H
 
 #include "io/case_file.h"
-#include "support/test.h"
-
-#include <unistd.h>
-
-static char scratch[64];
-static char case_path[96];
-
-static int scratch_make(void **state) {
-  (void)state;
-  snprintf(scratch, sizeof scratch, "/tmp/cdem-test-XXXXXX");
-  if (mkdtemp(scratch) == NULL)
-    return 1;
-  snprintf(case_path, sizeof case_path, "%s/c.yaml", scratch);
-  return 0;
-}
-
-static int scratch_remove(void **state) {
-  (void)state;
-  unlink(case_path);
-  return rmdir(scratch);
-}
+#include "support/scratch.h"
 
 static inline void write_bytes(const char *text, size_t bytes) {
-  FILE *file = fopen(case_path, "wb");
+  FILE *file = fopen(in_scratch("c.yaml"), "wb");
   assert_non_null(file);
   assert_int_equal(fwrite(text, 1, bytes, file), bytes);
   assert_int_equal(fclose(file), 0);
@@ -35,7 +15,7 @@ static inline void write_bytes(const char *text, size_t bytes) {
 static inline cdem_status read_with(const char *text, int overrides, const char *const *override,
                                     cdem_case *read, cdem_fault *fault) {
   write_bytes(text, strlen(text));
-  return cdem_read_case(case_path, overrides, override, read, fault);
+  return cdem_read_case(in_scratch("c.yaml"), overrides, override, read, fault);
 }
 
 static inline cdem_status read_text(const char *text, cdem_case *read, cdem_fault *fault) {

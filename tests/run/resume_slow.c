@@ -30,18 +30,7 @@ static cdem_status run_until(const char *folder, bool resume, int stop_at, int t
                              cdem_fault *fault) {
   stopper stop = {.stop_at = stop_at};
   const cdem_progress progress = {.context = &stop, .report = report};
-  const cdem_run_options options = {.path = resume ? NULL : in_scratch("box.yaml"),
-                                    .folder = in_scratch(folder),
-                                    .resume = resume,
-                                    .frames = true,
-                                    .threads = threads,
-                                    .version = "test",
-                                    .commit = "test",
-                                    .progress = &progress};
-  cdem_run_summary summary;
-  cdem_status status = cdem_run(&options, &summary, fault);
-  cdem_run_summary_release(&summary);
-  return status;
+  return run_box(folder, resume, threads, &progress, fault);
 }
 
 /* All but the checkpoint, which holds the wall time. */

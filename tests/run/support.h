@@ -36,6 +36,23 @@ static inline cdem_status run_case(const char *name, const char *folder, int ove
   return cdem_run(&options, summary, fault);
 }
 
+/* A whole run of box.yaml into scratch/FOLDER, or the rest of a broken one, with frames. */
+static inline cdem_status run_box(const char *folder, bool resume, int threads,
+                                  const cdem_progress *progress, cdem_fault *fault) {
+  const cdem_run_options options = {.path = resume ? NULL : in_scratch("box.yaml"),
+                                    .folder = in_scratch(folder),
+                                    .resume = resume,
+                                    .frames = true,
+                                    .threads = threads,
+                                    .version = "test",
+                                    .commit = "test",
+                                    .progress = progress};
+  cdem_run_summary summary;
+  cdem_status status = cdem_run(&options, &summary, fault);
+  cdem_run_summary_release(&summary);
+  return status;
+}
+
 /* The case fails before anything runs, with this text and the line that is to blame. */
 static inline void check_bad(const char *name, const char *override, const char *text) {
   cdem_fault fault = {0};
