@@ -156,8 +156,20 @@ cdem_status cdem_dem_contacts(const cdem_dem *dem, int64_t *contacts, cdem_dem_c
 int64_t cdem_dem_bonds_broken(const cdem_dem *dem);
 
 /* ---- moved from outside ---- */
-/* Driven grains: velocity and spin from now on (they move by them in the next step), by id. */
-void cdem_dem_drive(cdem_dem *dem, int64_t grain, const double velocity[3], const double spin[3]);
+/* Driven and guided grains: velocity and spin of the components that are given, from now on (they
+ * move by them in the next step), by id. After each step they grow by the rates times the step, so
+ * that a smooth motion needs no call a step; NULL: 0. */
+typedef struct {
+  double velocity[3], spin[3]; /* of the next step */
+} cdem_dem_motion;
+void cdem_dem_drive(cdem_dem *dem, int64_t grain, const cdem_dem_motion *motion,
+                    const cdem_dem_motion *rate);
+/* Force and moment on some grains at t_n, of all contacts, bonds and walls: out [count][6]. */
+void cdem_dem_forces_on(const cdem_dem *dem, int64_t count, const int32_t *grain, double *out);
+/* Bound of the stiffness of the contacts and bonds of each grain now, against a motion of the grain
+ * alone: N/m, [grains] by id; and, NULL allowed, against its rotation, N m/rad. */
+cdem_status cdem_dem_stiffness(const cdem_dem *dem, double *resists, double *turning,
+                               cdem_fault *fault);
 /* Allocates `applied`. */
 cdem_status cdem_dem_want_applied(cdem_dem *dem, cdem_fault *fault);
 /* Wall: force and moment of the grains on it, where its center is and how far it has moved. */

@@ -14,9 +14,15 @@
 #include <stdbool.h>
 
 typedef enum {
-  CDEM_GRAIN_FREE,  /* moves by its forces */
-  CDEM_GRAIN_DRIVEN /* moves with the velocity and spin it is given, whatever its forces */
+  CDEM_GRAIN_FREE,         /* moves by its forces */
+  CDEM_GRAIN_DRIVEN,       /* moves with the velocity and spin it is given, whatever its forces */
+  CDEM_GRAIN_GUIDED = 0x40 /* added to bits 1 << c: only these of vx vy vz wx wy wz are given */
 } cdem_grain_motion;
+
+/* Bits of the components of velocity and spin that are given to a grain. */
+static inline unsigned cdem_grain_held(unsigned motion) {
+  return motion == CDEM_GRAIN_DRIVEN ? 0x3fu : motion & CDEM_GRAIN_GUIDED ? motion & 0x3fu : 0u;
+}
 
 typedef struct {
   int dim;           /* 2 or 3 */

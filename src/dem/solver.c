@@ -64,8 +64,10 @@ static cdem_status allocate(cdem_dem *dem, cdem_fault *fault) {
   CDEM_NEW(core->wall_center, 3 * walls, fault);
   core->works = core->threads;
   LINES(core->work, core->works);
-  if (core->driven)
+  if (core->driven) {
     CDEM_NEW(core->drive, 6 * n, fault);
+    CDEM_NEW(core->drive_rate, 6 * n, fault);
+  }
   if (s->options.cell != NULL)
     CDEM_NEW(s->turns, 4 * n, fault);
   sorts(s, &s->place, 4 * sizeof(double));
@@ -113,6 +115,7 @@ void cdem_dem_release(cdem_dem *dem) {
       free(core->radius);
       free(core->material);
       free(core->drive);
+      free(core->drive_rate);
       free(core->pair_owner);
       free(core->pair_target);
       free(core->far_block);
@@ -192,7 +195,7 @@ static cdem_status begin(const cdem_dem_options *options, cdem_dem *dem, cdem_fa
   if (options->safety == 0.0)
     s->options.safety = 0.1;
   for (int64_t i = 0; core->start.motion != NULL && i < s->grains; i++)
-    core->driven |= core->start.motion[i] == CDEM_GRAIN_DRIVEN;
+    core->driven |= core->start.motion[i] != CDEM_GRAIN_FREE;
   for (int w = 0; w < options->walls; w++)
     core->servos |= cdem_dot3(options->wall[w].servo, options->wall[w].servo) > 0.0;
   CDEM_TRY(allocate(dem, fault));
@@ -259,12 +262,17 @@ cdem_status cdem_dem_want_applied(cdem_dem *dem, cdem_fault *fault) {
   return CDEM_OK;
 }
 
-void cdem_dem_drive(cdem_dem *dem, int64_t grain, const double velocity[3], const double spin[3]) {
+void cdem_dem_drive(cdem_dem *dem, int64_t grain, const cdem_dem_motion *motion,
+                    const cdem_dem_motion *rate) {
   cdem_dem_core *core = dem->store->core;
-  if (core->drive == NULL || dem->store->kind[dem->store->slot[grain]] != CDEM_GRAIN_DRIVEN)
+  if (core->drive == NULL)
     return;
+  double *drive = core->drive + 6 * grain, *grows = core->drive_rate + 6 * grain;
   for (int c = 0; c < 3; c++) {
-    core->drive[6 * grain + c] = c < dem->dim ? velocity[c] : 0.0;
-    core->drive[6 * grain + 3 + c] = dem->dim == 3 || c == 2 ? spin[c] : 0.0;
+    bool turns = dem->dim == 3 || c == 2;
+    drive[c] = c < dem->dim ? motion->velocity[c] : 0.0;
+    drive[3 + c] = turns ? motion->spin[c] : 0.0;
+    grows[c] = rate != NULL && c < dem->dim ? rate->velocity[c] : 0.0;
+    grows[3 + c] = rate != NULL && turns ? rate->spin[c] : 0.0;
   }
 }

@@ -229,25 +229,54 @@ static double block_bound(int dim, const block *g, double m, double inertia, boo
   return fresh ? bound + g->fresh / m : bound;
 }
 
+static void limits_release(limits *l) {
+  free(l->rows);
+  free(l->touched);
+}
+
+/* The rows of all grains. Released by the caller, after a failure too. */
+static cdem_status gather(const cdem_dem *dem, bool fresh, limits *l, cdem_fault *fault) {
+  const cdem_dem_store *s = dem->store;
+  *l = (limits){.dem = dem, .factor = 1.0 / cdem_inertia_factor(dem->dim)};
+  CDEM_NEW(l->rows, s->grains, fault);
+  CDEM_NEW(l->touched, s->grains, fault);
+  add_pairs(l);
+  add_bonds(l);
+  if (s->walls != NULL)
+    cdem_dem_visit_all(dem, add_touch, l);
+  if (fresh)
+    add_what_may_come(l);
+  return CDEM_OK;
+}
+
+cdem_status cdem_dem_stiffness(const cdem_dem *dem, double *resists, double *turning,
+                               cdem_fault *fault) {
+  const cdem_dem_store *s = dem->store;
+  limits l;
+  cdem_status status = gather(dem, true, &l, fault);
+  for (int32_t i = 0; status == CDEM_OK && i < s->grains; i++) {
+    const block *g = &l.rows[i].spring;
+    double r = cdem_place(s, i)[3];
+    /* Candidates that may come: one on each side. */
+    resists[s->id[i]] = norm(dem->dim, g->t) + 2.0 * g->fresh;
+    if (turning != NULL)
+      turning[s->id[i]] = (dem->dim == 2 ? g->r[2] : norm(3, g->r)) + 2.0 * g->fresh * r * r;
+  }
+  limits_release(&l);
+  return status;
+}
+
 static cdem_status find(const cdem_dem *dem, bool fresh, double *limit, int32_t *grain,
                         int32_t *contacts, cdem_fault *fault) {
   const cdem_dem_store *s = dem->store;
-  limits l = {.dem = dem, .factor = 1.0 / cdem_inertia_factor(dem->dim)};
+  limits l;
   *limit = INFINITY;
   *grain = -1;
-  l.rows = cdem_allocate(s->grains, sizeof *l.rows, fault);
-  l.touched = cdem_allocate(s->grains, sizeof *l.touched, fault);
-  if (l.rows == NULL || l.touched == NULL) {
-    free(l.rows);
-    free(l.touched);
-    return CDEM_MEMORY;
+  cdem_status status = gather(dem, fresh, &l, fault);
+  if (status != CDEM_OK) {
+    limits_release(&l);
+    return status;
   }
-  add_pairs(&l);
-  add_bonds(&l);
-  if (s->walls != NULL)
-    cdem_dem_visit_all(dem, add_touch, &l);
-  if (fresh)
-    add_what_may_come(&l);
   for (int32_t i = 0; i < s->grains; i++) {
     const row *g = &l.rows[i];
     double m = cdem_motion(s, i)[6], r = cdem_place(s, i)[3];
@@ -264,8 +293,7 @@ static cdem_status find(const cdem_dem *dem, bool fresh, double *limit, int32_t 
       *contacts = g->contacts;
     }
   }
-  free(l.rows);
-  free(l.touched);
+  limits_release(&l);
   return CDEM_OK;
 }
 

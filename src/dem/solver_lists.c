@@ -23,7 +23,7 @@ static cdem_status owners(cdem_dem *dem, cdem_fault *fault) {
   for (int32_t c = 0; c < core->chunks; c++) {
     core->part[c].driven = false;
     for (int32_t i = cdem_chunk_from(dem, c); i < cdem_chunk_to(dem, c); i++)
-      core->part[c].driven |= s->kind[i] == CDEM_GRAIN_DRIVEN;
+      core->part[c].driven |= s->kind[i] != CDEM_GRAIN_FREE;
   }
   return CDEM_OK;
 }

@@ -58,11 +58,12 @@ double cdem_dem_unbalanced(const cdem_dem *dem) {
     return 0.0;
   for (int32_t i = 0; i < s->grains; i++) {
     double f[3];
-    if (s->kind[i] == CDEM_GRAIN_DRIVEN)
-      continue;
+    unsigned held = cdem_grain_held(s->kind[i]);
     for (int c = 0; c < 3; c++)
-      f[c] = cdem_force(s, i)[c] + cdem_motion(s, i)[6] * s->options.gravity[c] +
-             (dem->applied != NULL ? dem->applied[6 * (int64_t)s->id[i] + c] : 0.0);
+      f[c] = held >> c & 1u
+                 ? 0.0
+                 : cdem_force(s, i)[c] + cdem_motion(s, i)[6] * s->options.gravity[c] +
+                       (dem->applied != NULL ? dem->applied[6 * (int64_t)s->id[i] + c] : 0.0);
     largest = fmax(largest, cdem_norm3(f));
   }
   return largest / (t.force / (double)t.contacts);
@@ -164,4 +165,10 @@ void cdem_dem_wall_now(const cdem_dem *dem, int wall, cdem_dem_wall *now) {
 void cdem_dem_wall_move(cdem_dem *dem, int wall, const cdem_series velocity[3],
                         const cdem_series spin[3]) {
   cdem_walls_move(dem->store, wall, velocity, spin);
+}
+
+void cdem_dem_forces_on(const cdem_dem *dem, int64_t count, const int32_t *grain, double *out) {
+  const cdem_dem_store *s = dem->store;
+  for (int64_t k = 0; k < count; k++)
+    memcpy(out + 6 * k, cdem_force(s, s->slot[grain[k]]), 6 * sizeof *out);
 }

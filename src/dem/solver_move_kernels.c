@@ -91,7 +91,7 @@ static void kick_of(const cdem_move_kernel *kernel, int32_t i, kick *k) {
 
 /* Work over the two half steps around t_n: of whole ones when the grain moves on, of the first one
  * at a report. */
-static void book(const cdem_move_kernel *kernel, int32_t i, const kick *k, bool driven,
+static void book(const cdem_move_kernel *kernel, int32_t i, const kick *k, unsigned held,
                  double *sum) {
   const cdem_dem_store *s = kernel->store;
   const double *v = cdem_motion(s, i);
@@ -99,18 +99,33 @@ static void book(const cdem_move_kernel *kernel, int32_t i, const kick *k, bool 
   const double *applied = kernel->applied != NULL ? kernel->applied + 6 * (int64_t)s->id[i] : NULL;
   for (int c = 0; c < 6; c++) {
     double way = 0.5 * dt * (kernel->commit ? v[c] + k->after[c] : v[c]);
-    if (driven) {
+    if (held == 0x3fu) { /* its own mass is not ours to move */
       sum[CDEM_DEM_DRIVEN] -= cdem_force(s, i)[c] * way;
       continue;
     }
     double mass = k->inverse[c] > 0.0 ? 1.0 / k->inverse[c] : 0.0;
     double now = 0.5 * (v[c] + k->after[c]);
+    if (held >> c & 1u) { /* what guides it, the change of its kinetic energy included */
+      double guide = mass * (k->after[c] - v[c]) / dt - k->force[c];
+      sum[CDEM_DEM_DRIVEN] += guide * way;
+      if (applied != NULL)
+        sum[CDEM_DEM_APPLIED] += applied[c] * way;
+      sum[c < 3 ? CDEM_DEM_TRANSLATION : CDEM_DEM_ROTATION] += 0.5 * mass * v[c] * k->after[c];
+      continue;
+    }
     sum[CDEM_DEM_MASS] += s->options.mass_damping * mass * now * way;
     sum[CDEM_DEM_LOCAL] -= k->local[c] * way;
     if (applied != NULL)
       sum[CDEM_DEM_APPLIED] += applied[c] * way;
     sum[c < 3 ? CDEM_DEM_TRANSLATION : CDEM_DEM_ROTATION] += 0.5 * mass * v[c] * k->after[c];
   }
+}
+
+/* Components that are given take what cdem_dem_drive has set for the step to come. */
+static void guide(const cdem_dem_core *core, int32_t id, unsigned held, double after[6]) {
+  for (int c = 0; held != 0 && c < 6; c++)
+    if (held >> c & 1u)
+      after[c] = core->drive[6 * (int64_t)id + c];
 }
 
 void cdem_grains_move_all(const cdem_move_kernel *kernel, int32_t from, int32_t to,
@@ -121,17 +136,18 @@ void cdem_grains_move_all(const cdem_move_kernel *kernel, int32_t from, int32_t 
   for (int32_t i = from; i < to; i++) {
     double *f = cdem_force(s, i), *m = cdem_motion(s, i), *x = cdem_place(s, i);
     double *u = core->since + 8 * (int64_t)i;
-    bool driven = s->kind[i] == CDEM_GRAIN_DRIVEN;
+    unsigned held = cdem_grain_held(s->kind[i]);
     kick k;
     gather(kernel, i, f);
     kick_of(kernel, i, &k);
-    if (driven) /* cdem_dem_drive has set m, which holds for the step to come */
-      for (int c = 0; c < 6; c++)
-        k.after[c] = core->drive[6 * (int64_t)s->id[i] + c];
+    guide(core, s->id[i], held, k.after);
     if (core->gain != NULL)
-      book(kernel, i, &k, driven, part->sum);
+      book(kernel, i, &k, held, part->sum);
     if (!kernel->commit)
       continue;
+    if (held != 0)
+      for (int64_t d = 6 * (int64_t)s->id[i], end = d + 6; d < end; d++)
+        core->drive[d] += dt * core->drive_rate[d];
     double step2 = 0.0, way2 = 0.0;
     for (int c = 0; c < 6; c++) {
       if (core->gain != NULL)
@@ -161,11 +177,9 @@ void cdem_grain_velocity_now(const cdem_dem *dem, int32_t i, double now[6]) {
   const double *v = cdem_motion(s, i);
   kick k;
   kick_of(&kernel, i, &k);
-  for (int c = 0; c < 6; c++) {
-    double after =
-        s->kind[i] == CDEM_GRAIN_DRIVEN ? s->core->drive[6 * (int64_t)s->id[i] + c] : k.after[c];
-    now[c] = 0.5 * (v[c] + after);
-  }
+  guide(s->core, s->id[i], cdem_grain_held(s->kind[i]), k.after);
+  for (int c = 0; c < 6; c++)
+    now[c] = 0.5 * (v[c] + k.after[c]);
 }
 
 /* v_n = (v_- + dt/2 (F + F_local)/m)/(1 + c dt/2), solved for v_-. */
@@ -173,11 +187,14 @@ void cdem_grain_set_before(const cdem_dem *dem, int32_t i, const double now[6]) 
   cdem_dem_store *s = dem->store;
   cdem_move_kernel kernel = kernel_now(dem);
   double *v = cdem_motion(s, i), half = 0.5 * s->options.mass_damping * dem->step;
+  unsigned held = cdem_grain_held(s->kind[i]);
   kick k;
-  if (s->kind[i] == CDEM_GRAIN_DRIVEN)
+  if (held == 0x3fu)
     return;
   kick_of(&kernel, i, &k);
   for (int c = 0; c < 6; c++) {
+    if (held >> c & 1u)
+      continue;
     double most = s->options.local_damping * fabs(k.force[c]);
     double local = now[c] == 0.0 ? 0.0 : -copysign(most, now[c]);
     v[c] = (1.0 + half) * now[c] - 0.5 * dem->step * k.inverse[c] * (k.force[c] + local);

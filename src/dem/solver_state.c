@@ -36,6 +36,8 @@ static int list_arrays(const cdem_dem *dem, entry list[ENTRIES]) {
     list[k++] = (entry){"dem/turns", CDEM_ARRAY_INT32, 4 * n, s->turns};
   if (core->drive != NULL)
     list[k++] = (entry){"dem/drive", CDEM_ARRAY_REAL, 6 * n, core->drive};
+  if (core->drive_rate != NULL)
+    list[k++] = (entry){"dem/drive_rate", CDEM_ARRAY_REAL, 6 * n, core->drive_rate};
   if (dem->applied != NULL)
     list[k++] = (entry){"dem/applied", CDEM_ARRAY_REAL, 6 * n, dem->applied};
   list[k++] = (entry){"dem/wall_force", CDEM_ARRAY_REAL, 6 * walls, core->wall_force};

@@ -73,7 +73,7 @@ typedef struct {
   double drift[3];     /* sum of displacements against the flow of the cell; in one that flows */
   int32_t bad;         /* a grain that moved too far, -1 */
   int32_t broke;       /* bonds in this evaluation */
-  bool driven;         /* some of its grains are */
+  bool driven;         /* some of its grains are driven or guided */
   double virial[9];    /* sum of f (x) branch; with servo-controlled cells */
   double image[27][3]; /* sum of forces on A across each image */
 } cdem_dem_part;
@@ -92,7 +92,7 @@ struct cdem_dem_core {
   int threads;           /* that work together */
   int32_t chunk, chunks; /* grains a chunk, chunks */
   bool uniform;          /* one radius and one mass */
-  bool driven, servos;   /* some are; walls by force */
+  bool driven, servos;   /* some are, or are guided; walls by force */
   double thickness;      /* of discs, m */
   int models;
   cdem_contact_model *model; /* [models] */
@@ -103,7 +103,8 @@ struct cdem_dem_core {
   double *gain;              /* [grains][8] of motion in the last kick; with energies only */
   double *seen;              /* [grains][8] motion that the forces were found with, where ... */
   bool seen_holds;           /* ... it is no longer `motion`: at the start, in a changed step */
-  double *drive;             /* [grains][6] by id; NULL without driven grains */
+  double *drive;             /* [grains][6] by id; NULL without driven and guided grains */
+  double *drive_rate;        /* [grains][6] by id: growth of drive, 1/s; likewise */
   int32_t *pair_owner;       /* [pairs] */
   int32_t *pair_target;      /* [pairs] >= 0: grain of the same chunk; else -1 - far row */
   int64_t rows;              /* of far */

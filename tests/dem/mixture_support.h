@@ -251,7 +251,8 @@ static inline void mixture_drive(mixture *x, cdem_dem *dem) {
       v[c] = mixture_uniform(x, -2.0, 2.0);
       w[c] = mixture_uniform(x, -50.0, 50.0);
     }
-    cdem_dem_drive(dem, i, v, w);
+    cdem_dem_motion given = {{v[0], v[1], v[2]}, {w[0], w[1], w[2]}};
+    cdem_dem_drive(dem, i, &given, NULL);
   }
 }
 
