@@ -1,0 +1,77 @@
+/* A body and grains that move together, the body by steps m times as long (Li & Wan 2010, section
+ * 2.3).
+ *
+ * One coarse step from t_n to t_n + m dt:
+ *     1. the body steps with its own forces and those of the grains at t_n;
+ *     2. interface grains go from N d_n with N v_n and the constant acceleration N a_n (eqs 25-26),
+ *        a_n = 2 (v_{n+1/2} - v_n)/(m dt), so that they end where the body does; the grains take m
+ *        steps (eqs 27-30);
+ *     3. the forces of the grains at t_{n+1} go to the body (eqs 31-34, by central differences).
+ *
+ * Two forms of the force on the body:
+ *
+ * interface    N^T R, R the forces of fine grains on interface grains. The body is made of the
+ *              outer cells alone; nodes inside the fine region follow the grains by the projection
+ *              d = M^-1 N^T Mp q and move nothing. Nodes on the edge of the fine region are the
+ *              body's.
+ *
+ * virtual work N^T F over fine and interface grains, F holding every contact of at least one fine
+ *              grain and what acts on fine grains from outside; nodes of the fine region have the
+ *              lumped row sums of N^T Mp N added to their masses and move by these forces. (A sum
+ *              over fine grains alone, a literal reading of eq. 16, leaves out the reaction of the
+ *              interface and is wrong by all of it.) The motion of inner nodes is then no
+ *              projection, and is for looking at only.
+ *
+ * Both solvers are the caller's, borrowed, at the same time, and have fixed steps: that of the body
+ * is m times that of the grains.
+ */
+#ifndef CDEM_BSM_COUPLING_H
+#define CDEM_BSM_COUPLING_H
+
+#include "bsm/projector.h"
+#include "bsm/tie.h"
+#include "cdem/solver.h"
+#include "dem/dem.h"
+
+typedef enum { CDEM_BSM_INTERFACE, CDEM_BSM_VIRTUAL_WORK } cdem_bsm_form;
+
+typedef struct {
+  cdem_solver *coarse;
+  cdem_dem *fine;
+  cdem_bsm_form form;
+  int cycles;               /* m >= 1 */
+  const cdem_tie *tie;      /* interface grains, which are driven, to the body */
+  const cdem_tie *fine_tie; /* virtual work: fine grains to the body's nodes; else NULL */
+  double most_step;         /* s, as cdem_coupling_limit says; checked against the body's step */
+} cdem_coupling_options;
+
+typedef struct {
+  cdem_coupling_options options;
+  double step; /* s, m dt */
+  double work; /* J, of interface grains (virtual work: of all) on the body since the start */
+  double *before, *after;     /* [nodes][dofs] velocities of the body */
+  double *reaction;           /* [nodes][dofs] forces of the grains at t_n */
+  double *motion, *rate, *on; /* [largest tie][6] */
+} cdem_coupling;
+
+/* CDEM_INPUT: steps that do not fit, or longer than most_step (names the largest m that is stable).
+ * Hands the forces at the start to the body. Release at any stage. */
+cdem_status cdem_coupling_init(const cdem_coupling_options *options, cdem_coupling *coupling,
+                               cdem_fault *fault);
+void cdem_coupling_release(cdem_coupling *coupling);
+
+/* Longest stable step of a body with these interface grains, s: the springs of contacts on
+ * interface grains add their frequency to the body's own (`limit`, s). CDEM_MEMORY. */
+cdem_status cdem_coupling_limit(const cdem_body *body, double limit, const cdem_tie *tie,
+                                const cdem_dem *fine, double *most_step, cdem_fault *fault);
+
+/* One coarse step. CDEM_NUMERIC also when the body has had to shorten its step (breaking, contact):
+ * names the step that is stable now. */
+cdem_status cdem_coupling_step(cdem_coupling *coupling, cdem_fault *fault);
+
+/* Beside the two solvers' own states. */
+cdem_status cdem_coupling_save(const cdem_coupling *coupling, cdem_state *state, cdem_fault *fault);
+cdem_status cdem_coupling_restore(cdem_coupling *coupling, const cdem_state *state,
+                                  cdem_fault *fault);
+
+#endif
