@@ -127,18 +127,28 @@ static bool report(void *context, const char *what, int64_t done, int64_t total)
 
 /* ---- what is said at the end ---- */
 
+static void print_body(const cdem_run_summary *r) {
+  printf("  size          %lld elements (%lld distinct), %lld nodes, %lld unknowns\n",
+         (long long)r->elements, (long long)r->distinct, (long long)r->nodes,
+         (long long)r->unknowns);
+  printf("  blocks        %lld, %lld faces between them\n", (long long)r->blocks,
+         (long long)r->interfaces);
+}
+
 static void print_sizes(const cdem_run_summary *r) {
+  if (r->fine > 0) {
+    printf("  fine region   %lld grains, %lld interface grains, %d steps a step\n",
+           (long long)r->fine, (long long)r->interface_grains, r->cycles);
+    if (r->elements > 0)
+      print_body(r);
+  }
   if (r->grains > 0) {
     printf("  size          %lld grains, %lld contacts, %lld walls", (long long)r->grains,
            (long long)r->contacts, (long long)r->walls);
     printf(r->bonds > 0 ? ", %lld bonds\n" : "\n", (long long)r->bonds);
     return;
   }
-  printf("  size          %lld elements (%lld distinct), %lld nodes, %lld unknowns\n",
-         (long long)r->elements, (long long)r->distinct, (long long)r->nodes,
-         (long long)r->unknowns);
-  printf("  blocks        %lld, %lld faces between them\n", (long long)r->blocks,
-         (long long)r->interfaces);
+  print_body(r);
 }
 
 /* A title may hold what a terminal would obey. */

@@ -191,6 +191,10 @@ bool cdem_case_given(const cdem_case *cases, const char *key) {
   return cdem_case_places_find(cases->places, key) != NULL;
 }
 
+bool cdem_case_is_coupled(const cdem_case *cases) {
+  return cdem_case_given(cases, "coupling");
+}
+
 bool cdem_case_has_grains(const cdem_case *cases) {
   return cdem_case_given(cases, "grains");
 }

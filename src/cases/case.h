@@ -219,10 +219,27 @@ typedef struct {
   double servo_rate, servo_gain;
 } cdem_case_cell;
 
-/* probes: NAME: region: of grains; low >= high in a direction: all of it */
+/* probes: NAME: region: of grains, coupling: regions: - ; low >= high in a direction: all of it */
 typedef struct {
   double low[3], high[3];
 } cdem_case_region;
+
+typedef enum { /* coupling: version: which of the models of one problem is run */
+               CDEM_VERSION_COUPLED,
+               CDEM_VERSION_FROZEN, /* interface grains at rest, no coarse medium: the null test */
+               CDEM_VERSION_GRAINS, /* grains everywhere */
+               CDEM_VERSION_CONTINUUM /* the coarse medium everywhere */
+} cdem_case_version;
+
+/* coupling: grains inside a body */
+typedef struct {
+  int version;                              /* cdem_case_version */
+  CDEM_CASE_LIST(cdem_case_region) regions; /* boxes whose elements are the fine region */
+  int form;                                 /* interface virtual-work */
+  int64_t cycles;       /* steps of the grains a step of the body; 0: as many as are stable */
+  int rotation;         /* micro-rotation of the coarse medium: physical scaled */
+  double interface_gap; /* of interface grains to fine ones, in largest radii */
+} cdem_case_coupling;
 
 /* probes: NAME: a column of history.csv */
 typedef struct {
@@ -309,6 +326,7 @@ typedef struct {
   CDEM_CASE_LIST(cdem_case_wall) walls;
   CDEM_CASE_LIST(cdem_case_bond) bonds;
   cdem_case_cell cell;
+  cdem_case_coupling coupling;
   CDEM_CASE_LIST(cdem_case_initial) initial;
   CDEM_CASE_LIST(cdem_case_probe) probes;
   CDEM_CASE_LIST(cdem_case_curve) curves;
@@ -329,8 +347,9 @@ void cdem_case_release(cdem_case *cases);
 
 /* Whether the file or an override gave this key ("mesh.size", "loads[0]"). */
 bool cdem_case_given(const cdem_case *cases, const char *key);
-/* A case is of grains, or of a body. */
+/* A case is of grains, of a body, or of both. */
 bool cdem_case_has_grains(const cdem_case *cases);
+bool cdem_case_is_coupled(const cdem_case *cases);
 
 /* Is direction 0, 1, 2 among the texts x, y, z? */
 bool cdem_case_names_direction(const cdem_case_texts *directions, int direction);

@@ -46,6 +46,9 @@ static cdem_status check_analysis(const cdem_case *cases, cdem_fault *fault) {
   static const char *const solved[] = {"tolerance", "most_steps"};
   static const char *const timed[] = {"step", "quiet"};
   const cdem_case_values *v = &cases->values;
+  if (cdem_case_is_coupled(cases) && v->analysis != CDEM_ANALYSIS_DYNAMIC)
+    return cdem_case_fail(cases, "analysis", CDEM_INPUT, fault,
+                          "a coupled run goes through time: let 'analysis' be dynamic");
   if (v->analysis == CDEM_ANALYSIS_DYNAMIC) {
     if (isnan(v->end))
       return cdem_case_fail(cases, "analysis", CDEM_INPUT, fault,
@@ -78,16 +81,18 @@ cdem_status cdem_case_check(const cdem_case *cases, cdem_fault *fault) {
     CDEM_TRY(cdem_case_check_grains(cases, fault));
     CDEM_TRY(cdem_case_check_walls(cases, fault));
     CDEM_TRY(cdem_case_check_cell(cases, fault));
-    CDEM_TRY(cdem_case_check_initial(cases, fault));
-    return cdem_case_check_output(cases, fault);
   }
-  CDEM_TRY(cdem_case_check_mesh(cases, fault));
-  CDEM_TRY(cdem_case_check_materials(cases, fault));
-  CDEM_TRY(cdem_case_check_interfaces(cases, fault));
-  CDEM_TRY(check_contact(cases, fault));
-  CDEM_TRY(cdem_case_check_supports(cases, fault));
-  CDEM_TRY(cdem_case_check_loads(cases, fault));
-  CDEM_TRY(cdem_case_check_plates(cases, fault));
+  if (cdem_case_given(cases, "mesh")) {
+    CDEM_TRY(cdem_case_check_mesh(cases, fault));
+    CDEM_TRY(cdem_case_check_materials(cases, fault));
+    CDEM_TRY(cdem_case_check_interfaces(cases, fault));
+    CDEM_TRY(check_contact(cases, fault));
+    CDEM_TRY(cdem_case_check_supports(cases, fault));
+    CDEM_TRY(cdem_case_check_loads(cases, fault));
+    CDEM_TRY(cdem_case_check_plates(cases, fault));
+  }
+  if (cdem_case_is_coupled(cases))
+    CDEM_TRY(cdem_case_check_coupling(cases, fault));
   CDEM_TRY(cdem_case_check_initial(cases, fault));
   return cdem_case_check_output(cases, fault);
 }

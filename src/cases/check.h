@@ -31,6 +31,8 @@ cdem_status cdem_case_check_interfaces(const cdem_case *cases, cdem_fault *fault
 cdem_status cdem_case_check_grains(const cdem_case *cases, cdem_fault *fault);
 /* Keys of the one kind of run in the other. */
 cdem_status cdem_case_check_kind(const cdem_case *cases, cdem_fault *fault);
+/* check_coupling.c: grains inside a body. */
+cdem_status cdem_case_check_coupling(const cdem_case *cases, cdem_fault *fault);
 /* check_walls.c */
 cdem_status cdem_case_check_walls(const cdem_case *cases, cdem_fault *fault);
 cdem_status cdem_case_check_cell(const cdem_case *cases, cdem_fault *fault);

@@ -234,8 +234,11 @@ static cdem_status check_probe(const cdem_case *cases, const cdem_case_probe *pr
                       "displacement, velocity and force have the components x y z rotation "
                       "magnitude; xx .. xy are those of 'quantity: stress'",
                       fault);
-  return cdem_case_has_grains(cases) ? check_probe_of_grains(cases, probe, fault)
-                                     : check_probe_of_body(cases, probe, fault);
+  bool of_grains = cdem_case_has_grains(cases);
+  if (cdem_case_is_coupled(cases)) /* of the body by a group, of the grains by a region */
+    of_grains = probe->group == NULL;
+  return of_grains ? check_probe_of_grains(cases, probe, fault)
+                   : check_probe_of_body(cases, probe, fault);
 }
 
 static cdem_status result_fail(const cdem_case *cases, const cdem_case_key_result *result,

@@ -37,15 +37,34 @@ static cdem_status check_kind_grains(const cdem_case *cases, cdem_fault *fault) 
   return CDEM_OK;
 }
 
+static cdem_status check_kind_coupled(const cdem_case *cases, bool grains, bool mesh,
+                                      cdem_fault *fault) {
+  if (!grains || !mesh)
+    return cdem_case_fail(
+        cases, "coupling", CDEM_INPUT, fault,
+        "a coupled case needs a 'mesh' with its 'materials' for the coarse medium "
+        "and 'grains' with their 'contacts' for the fine one");
+  if (!cdem_case_given(cases, "materials"))
+    return cdem_case_fail(cases, "mesh", CDEM_INPUT, fault, "a body needs 'materials'");
+  CDEM_TRY(
+      refuse(cases, "cell", "grains in a body", "their surroundings are the coarse medium", fault));
+  return refuse(cases, "grains.packing.compact", "grains in a body",
+                "press the packing together in a run of its own, and take its grains by 'file'",
+                fault);
+}
+
 cdem_status cdem_case_check_kind(const cdem_case *cases, cdem_fault *fault) {
   static const char *const foreign[][2] = {{"contacts", "contact between blocks is in 'contact'"},
                                            {"walls", "a rigid wall is an entry of 'plates'"},
                                            {"bonds", "blocks are held together by 'interfaces'"},
                                            {"cell", "a body is not periodic"}};
   bool grains = cdem_case_has_grains(cases), mesh = cdem_case_given(cases, "mesh");
+  if (cdem_case_is_coupled(cases))
+    return check_kind_coupled(cases, grains, mesh, fault);
   if (grains && mesh)
     return cdem_case_fail(cases, "grains", CDEM_INPUT, fault,
-                          "a case has a 'mesh' or 'grains', not both; write a case for each");
+                          "a case has a 'mesh' or 'grains', not both, unless 'coupling' says where "
+                          "in the mesh the grains are");
   if (grains)
     return check_kind_grains(cases, fault);
   for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++)

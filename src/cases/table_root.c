@@ -121,6 +121,11 @@ static const cdem_case_key keys[] = {
     {TOP(cell), .kind = CDEM_KEY_SECTION, .section = &cdem_section_cell, .otherwise = "none",
      .help = "The box in which grains are periodic, and how it deforms.",
      .example = "{low: [0, 0], size: [1, 1], periodic: [x, y]}"},
+    {TOP(coupling), .kind = CDEM_KEY_SECTION, .section = &cdem_section_coupling,
+     .otherwise = "a case is of a body or of grains",
+     .help =
+         "Grains inside a body: a coarse medium (mesh, materials) around a fine region of grains.",
+     .example = "{regions: [{low: [-3.5 m, -3.5 m], high: [3.5 m, 0]}], cycles: 10}"},
     {TOP(initial), .kind = CDEM_KEY_LIST, .section = &cdem_section_initial, .otherwise = "at rest",
      .help = "Velocities at the start.",
      .example = "[{groups: projectile, velocity: [10 m/s, 0]}]"},

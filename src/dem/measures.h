@@ -52,6 +52,9 @@ cdem_status cdem_measure(const cdem_dem *dem, const cdem_region *region, cdem_as
 /* Per grain: stress [grains][6] (xx yy zz xy yz xz; symmetric part of 1/V_grain sum f (x) arm), Pa.
  * Grain volumes times these sum to the sum over contacts. */
 cdem_status cdem_grain_stress(const cdem_dem *dem, double *stress, cdem_fault *fault);
+/* sqrt(3/2 s:s) of a stress xx yy zz xy yz xz, s its deviator; in 2-D of the part in the plane, as
+ * if zz were the mean of the others. */
+double cdem_effective_stress(int dim, const double stress[6]);
 
 /* Per grain, nominal strain between a reference and now. The deformation gradient F is the one that
  * fits the motion of the neighbours best (least squares over the neighbours in the reference state:

@@ -25,6 +25,7 @@ static const struct {
     [CDEM_GRAIN_DISPLACEMENT] = {"displacement", "displacement |u|, m", false, true},
     [CDEM_GRAIN_ROTATION] = {"rotation", "rotation θ, rad", true, true},
     [CDEM_GRAIN_PRESSURE] = {"pressure", "pressure p, Pa", false, true},
+    [CDEM_GRAIN_EFFECTIVE_STRESS] = {"effective_stress", "effective stress σ_e, Pa", false, true},
     [CDEM_GRAIN_VOLUMETRIC_STRAIN] = {"volumetric_strain", "nominal volumetric strain ε_v", true,
                                       true},
     [CDEM_GRAIN_EFFECTIVE_STRAIN] = {"effective_strain", "nominal effective strain ε_e", false,

@@ -19,8 +19,9 @@ typedef enum {
   CDEM_GRAIN_RADIUS,
   CDEM_GRAIN_SPEED,
   CDEM_GRAIN_DISPLACEMENT,
-  CDEM_GRAIN_ROTATION, /* 2-D: with its sign; 3-D: size */
-  CDEM_GRAIN_PRESSURE, /* -tr/dim of the stress of the grain */
+  CDEM_GRAIN_ROTATION,         /* 2-D: with its sign; 3-D: size */
+  CDEM_GRAIN_PRESSURE,         /* -tr/dim of the stress of the grain */
+  CDEM_GRAIN_EFFECTIVE_STRESS, /* sqrt(3/2 s:s), s its deviator (2-D: in the plane) */
   CDEM_GRAIN_VOLUMETRIC_STRAIN,
   CDEM_GRAIN_EFFECTIVE_STRAIN,
   CDEM_GRAIN_CONTACTS,

@@ -1,8 +1,20 @@
 /* Pictures of a solver's state: the field of each grain, the walls, then the map. */
 #include "dem/pictures_kernels.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+double cdem_effective_stress(int dim, const double stress[6]) {
+  double mean = 0.0, sum = 0.0;
+  for (int c = 0; c < dim; c++)
+    mean += stress[c] / dim;
+  for (int c = 0; c < dim; c++)
+    sum += (stress[c] - mean) * (stress[c] - mean);
+  for (int c = 3; c < (dim == 2 ? 4 : 6); c++)
+    sum += 2.0 * stress[c] * stress[c];
+  return sqrt(1.5 * sum);
+}
 
 static void pressures(const cdem_snapshot *s, const double *stress, double *value) {
   for (int64_t i = 0; i < s->grains; i++) {
@@ -32,11 +44,15 @@ static cdem_status fill_values(const cdem_snapshot *s, const cdem_picture *p, do
   case CDEM_GRAIN_VOLUMETRIC_STRAIN:
   case CDEM_GRAIN_EFFECTIVE_STRAIN:
     return strains(s, p, value, fault);
-  case CDEM_GRAIN_PRESSURE: {
+  case CDEM_GRAIN_PRESSURE:
+  case CDEM_GRAIN_EFFECTIVE_STRESS: {
     double *stress;
     CDEM_NEW(stress, 6 * s->grains, fault);
     cdem_grain_stress_kernel(s, stress);
-    pressures(s, stress, value);
+    if (p->field == CDEM_GRAIN_PRESSURE)
+      pressures(s, stress, value);
+    for (int64_t i = 0; p->field == CDEM_GRAIN_EFFECTIVE_STRESS && i < s->grains; i++)
+      value[i] = cdem_effective_stress(s->dim, stress + 6 * i);
     free(stress);
     return CDEM_OK;
   }

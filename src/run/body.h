@@ -64,14 +64,28 @@ typedef struct {
   cdem_solver_options solver_options;
   cdem_solver solver;
   cdem_run_probes probes;
+  /* What a coupled run asks for; 0 in others. */
+  const char *only;       /* group of the mesh that the body is made of; NULL: all of it */
+  int32_t spare;          /* nodes of the mesh that are kept though no cell of it has them: */
+  const int32_t *spares;  /* [spare]; they are the last of blocks.mesh, in this order */
+  double rotation_factor; /* on micro_inertia; 0: 1 */
+  double fixed_step;      /* s; 0: as the case says */
 } cdem_run_body;
+
+/* A body with its mesh read (or taken from a checkpoint); then everything but the solver; then the
+ * solver and the probes. Where the first fails nothing is made. */
+cdem_status cdem_run_body_create(cdem_run_setup *run, const cdem_state *checkpoint,
+                                 cdem_run_body **body, cdem_fault *fault);
+cdem_status cdem_run_body_build(cdem_run_body *body, cdem_fault *fault);
+cdem_status cdem_run_body_start(cdem_run_body *body, cdem_fault *fault);
 
 /* ---- the steps of its making, one file each ---- */
 
 /* body_mesh.c */
 cdem_status cdem_run_body_mesh(cdem_run_body *setup, cdem_fault *fault);
-/* body_model.c: blocks, model, body */
+/* body_model.c: blocks, model, body; the body alone, again with another rotation_factor */
 cdem_status cdem_run_body_model(cdem_run_body *setup, cdem_fault *fault);
+cdem_status cdem_run_body_elastic(cdem_run_body *setup, cdem_fault *fault);
 /* body_interfaces.c, body_contact.c */
 cdem_status cdem_run_body_interfaces(cdem_run_body *setup, cdem_fault *fault);
 cdem_status cdem_run_body_contact(cdem_run_body *setup, cdem_fault *fault);

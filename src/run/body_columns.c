@@ -78,7 +78,8 @@ void cdem_run_body_columns(cdem_run_setup *run, cdem_run_row *w) {
   if (!w->declare)
     cdem_run_probes_update(setup, &setup->probes);
   for (int64_t p = 0; p < values->probes.count; p++)
-    cdem_run_put(w, cdem_run_probe_unit(&values->probes.item[p]),
-                 w->declare ? 0.0 : cdem_run_probe_value(setup, &setup->probes, p), "probe.%s",
-                 values->probes.item[p].name);
+    if (values->probes.item[p].group != NULL) /* others look at grains */
+      cdem_run_put(w, cdem_run_probe_unit(&values->probes.item[p]),
+                   w->declare ? 0.0 : cdem_run_probe_value(setup, &setup->probes, p), "probe.%s",
+                   values->probes.item[p].name);
 }

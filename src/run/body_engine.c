@@ -27,12 +27,14 @@ static void sum_mesh(cdem_run_body *body) {
       sum, mesh->cell_node, (size_t)mesh->cell_start[mesh->cells] * sizeof *mesh->cell_node);
 }
 
-static cdem_status build(cdem_run_setup *run, const cdem_state *checkpoint, cdem_fault *fault) {
+cdem_status cdem_run_body_create(cdem_run_setup *run, const cdem_state *checkpoint,
+                                 cdem_run_body **made, cdem_fault *fault) {
   cdem_run_body *body = cdem_allocate(1, sizeof *body, fault);
   if (body == NULL)
     return CDEM_MEMORY;
   run->context = body;
   body->run = run;
+  *made = body;
   const cdem_case_values *values = cdem_run_values(run);
   body->section =
       (cdem_section){.plane = (cdem_plane)values->plane, .thickness = values->thickness};
@@ -41,13 +43,27 @@ static cdem_status build(cdem_run_setup *run, const cdem_state *checkpoint, cdem
   else
     CDEM_TRY(read_mesh(body, fault));
   sum_mesh(body);
+  return CDEM_OK;
+}
+
+cdem_status cdem_run_body_build(cdem_run_body *body, cdem_fault *fault) {
   CDEM_TRY(cdem_run_body_model(body, fault));
   CDEM_TRY(cdem_run_body_interfaces(body, fault));
   CDEM_TRY(cdem_run_body_contact(body, fault));
   CDEM_TRY(cdem_run_body_conditions(body, fault));
-  CDEM_TRY(cdem_run_body_loads(body, fault));
+  return cdem_run_body_loads(body, fault);
+}
+
+cdem_status cdem_run_body_start(cdem_run_body *body, cdem_fault *fault) {
   CDEM_TRY(cdem_run_body_solver(body, fault));
   return cdem_run_probes_init(body, &body->probes, fault);
+}
+
+static cdem_status build(cdem_run_setup *run, const cdem_state *checkpoint, cdem_fault *fault) {
+  cdem_run_body *body;
+  CDEM_TRY(cdem_run_body_create(run, checkpoint, &body, fault));
+  CDEM_TRY(cdem_run_body_build(body, fault));
+  return cdem_run_body_start(body, fault);
 }
 
 static void release(cdem_run_setup *run) {

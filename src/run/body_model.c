@@ -20,6 +20,22 @@ static cdem_status check_groups(const cdem_run_body *setup, const char *key,
   return CDEM_OK;
 }
 
+/* Nodes that belong to no cell of the body but carry masses that others give them. */
+static cdem_status keep_spares(cdem_run_body *setup, cdem_fault *fault) {
+  cdem_blocks *b = &setup->blocks;
+  int64_t first = b->mesh.nodes, room[2] = {first, first};
+  CDEM_TRY(cdem_grow(&b->original, &room[0], first + setup->spare, sizeof *b->original, fault));
+  CDEM_TRY(cdem_grow(&b->node_block, &room[1], first + setup->spare, sizeof *b->node_block, fault));
+  for (int32_t i = 0; i < setup->spare; i++) {
+    int32_t node = setup->spares[i];
+    b->original[first + i] = node;
+    b->node_block[first + i] = -1;
+    CDEM_TRY(cdem_mesh_add_nodes(&b->mesh, 1, setup->mesh.xyz + 3 * (int64_t)node,
+                                 &setup->mesh.node_tag[node], fault));
+  }
+  return CDEM_OK;
+}
+
 static cdem_status cut(cdem_run_body *setup, cdem_fault *fault) {
   const cdem_case_blocks *blocks = &cdem_run_values(setup->run)->blocks;
   int dimension = cdem_mesh_dimension(&setup->mesh);
@@ -31,6 +47,8 @@ static cdem_status cut(cdem_run_body *setup, cdem_fault *fault) {
   CDEM_TRY(check_groups(setup, "blocks.separate", &blocks->separate, dimension, fault));
   CDEM_TRY(check_groups(setup, "blocks.joints", &blocks->joints, dimension - 1, fault));
   const cdem_blocks_options options = {.mesh = &setup->mesh,
+                                       .groups = setup->only != NULL ? 1 : 0,
+                                       .group = &setup->only,
                                        .breakable = (int)blocks->breakable.count,
                                        .breakable_group = texts(&blocks->breakable),
                                        .separate = (int)blocks->separate.count,
@@ -39,7 +57,10 @@ static cdem_status cut(cdem_run_body *setup, cdem_fault *fault) {
                                        .joint_group = texts(&blocks->joints)};
   cdem_status status = cdem_blocks_init(&options, &setup->blocks, fault);
   const char *key = cdem_case_given(&setup->run->cases, "blocks") ? "blocks" : "mesh";
-  return status == CDEM_INPUT ? cdem_case_blame(&setup->run->cases, key, fault) : status;
+  if (status == CDEM_INPUT)
+    return cdem_case_blame(&setup->run->cases, key, fault);
+  CDEM_TRY(status);
+  return keep_spares(setup, fault);
 }
 
 /* Index of the material for cells of no named group; -1 when every material has groups. */
@@ -242,11 +263,22 @@ cdem_status cdem_run_body_model(cdem_run_body *setup, cdem_fault *fault) {
   CDEM_TRY(material_numbers(setup, fault));
   CDEM_TRY(cell_numbers(setup, fault));
   setup->run->threads = worthwhile_threads(setup);
+  return cdem_run_body_elastic(setup, fault);
+}
+
+cdem_status cdem_run_body_elastic(cdem_run_body *setup, cdem_fault *fault) {
+  int materials = setup->model.materials;
+  double factor = setup->rotation_factor > 0.0 ? setup->rotation_factor : 1.0, *inertia;
+  CDEM_NEW(inertia, materials, fault);
+  for (int m = 0; m < materials; m++)
+    inertia[m] = factor * setup->micro_inertia[m];
   const cdem_body_options options = {.density = setup->density,
-                                     .micro_inertia = setup->micro_inertia,
+                                     .micro_inertia = inertia,
                                      .linear = cdem_run_values(setup->run)->analysis ==
                                                CDEM_ANALYSIS_STATIC,
                                      .threads = setup->run->threads};
-  status = cdem_body_init(&setup->model, &options, &setup->body, fault);
+  cdem_body_release(&setup->body);
+  cdem_status status = cdem_body_init(&setup->model, &options, &setup->body, fault);
+  free(inertia);
   return status == CDEM_INPUT ? cdem_case_blame(&setup->run->cases, "mesh", fault) : status;
 }

@@ -51,6 +51,8 @@ cdem_status cdem_run_probes_init(const cdem_run_body *setup, cdem_run_probes *pr
   CDEM_NEW(probes->probe, values->probes.count, fault);
   for (int64_t p = 0; p < values->probes.count; p++) {
     const cdem_case_probe *probe = &values->probes.item[p];
+    if (probe->group == NULL) /* of grains */
+      continue;
     CDEM_TRY(resolve(setup, probe, &probes->probe[p], fault));
     cells = cells || probes->probe[p].cells != NULL;
     nodes = nodes || (probe->quantity == STRESS && probes->probe[p].cells == NULL);

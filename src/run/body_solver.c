@@ -65,6 +65,7 @@ static cdem_status solve(cdem_run_body *setup, cdem_fault *fault) {
 cdem_status cdem_run_body_solver(cdem_run_body *setup, cdem_fault *fault) {
   const cdem_case_values *values = cdem_run_values(setup->run);
   fill_options(setup);
+  setup->solver_options.step = setup->fixed_step;
   cdem_status status = cdem_solver_init(&setup->solver_options, &setup->solver, fault);
   if (status == CDEM_INPUT)
     return cdem_case_blame(&setup->run->cases, "supports", fault);
@@ -72,6 +73,8 @@ cdem_status cdem_run_body_solver(cdem_run_body *setup, cdem_fault *fault) {
   snprintf(setup->run->limiter, sizeof setup->run->limiter, "nothing");
   if (values->analysis == CDEM_ANALYSIS_STATIC)
     return solve(setup, fault);
+  if (setup->fixed_step > 0.0)
+    return CDEM_OK;
   double limit = cdem_solver_limit(&setup->solver, setup->run->limiter);
   CDEM_TRY(cdem_run_check_step(setup->run, limit, fault));
   if (values->analysis == CDEM_ANALYSIS_DYNAMIC && values->end > 0.0 && isfinite(values->end))

@@ -2,7 +2,8 @@
  *
  * A run is the same for bodies and grains: a folder, rows, frames, checkpoints, a summary. What
  * differs is an engine: a table of functions over a context that only they know. One engine is one
- * line in setup.c and files of its own (body_*.c, grains_*.c); a coupled run is a third one.
+ * line in setup.c and files of its own (body_*.c, grains_*.c); that of coupled runs (coupled_*.c)
+ * is made of the other two.
  *
  * A function that may be NULL says so. Each gets the setup, whose `context` is the engine's.
  */
@@ -65,6 +66,6 @@ typedef struct {
   cdem_status (*pictures)(cdem_run_setup *setup, const char *folder, cdem_fault *fault);
 } cdem_run_engine;
 
-extern const cdem_run_engine cdem_run_engine_body, cdem_run_engine_grains;
+extern const cdem_run_engine cdem_run_engine_body, cdem_run_engine_grains, cdem_run_engine_coupled;
 
 #endif

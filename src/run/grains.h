@@ -41,6 +41,13 @@ typedef struct {
   cdem_strain_reference *strain; /* the start, where a picture of strain is wanted */
 } cdem_run_grains;
 
+/* Grains at their places; then everything up to the solver; then that. Where the first fails
+ * nothing is made. */
+cdem_status cdem_run_grains_create(cdem_run_setup *run, const cdem_state *checkpoint,
+                                   cdem_run_grains **grains, cdem_fault *fault);
+cdem_status cdem_run_grains_build(cdem_run_grains *g, const cdem_state *checkpoint,
+                                  cdem_fault *fault);
+
 /* ---- the steps of its making, one file each ---- */
 
 /* grains_start.c: places, sizes, initial motion; from a file, a packing, or a checkpoint */

@@ -151,5 +151,6 @@ void cdem_run_grains_columns(cdem_run_setup *run, cdem_run_row *row) {
   put_walls(row, g);
   put_cell(row, g);
   for (int64_t p = 0; p < values->probes.count; p++)
-    put_probe(row, g, &values->probes.item[p]);
+    if (values->probes.item[p].group == NULL) /* others look at a body */
+      put_probe(row, g, &values->probes.item[p]);
 }

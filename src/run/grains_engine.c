@@ -13,14 +13,20 @@ static cdem_run_grains *grains_of(const cdem_run_setup *run) {
 
 /* ---- from the case to the solver ---- */
 
-static cdem_status build(cdem_run_setup *run, const cdem_state *checkpoint, cdem_fault *fault) {
+cdem_status cdem_run_grains_create(cdem_run_setup *run, const cdem_state *checkpoint,
+                                   cdem_run_grains **made, cdem_fault *fault) {
   cdem_run_grains *g = cdem_allocate(1, sizeof *g, fault);
   if (g == NULL)
     return CDEM_MEMORY;
+  *made = g;
   run->context = g;
   g->run = run;
   g->dim = (int)cdem_run_values(run)->grains.dimension;
-  CDEM_TRY(cdem_run_grains_start(g, checkpoint, fault));
+  return cdem_run_grains_start(g, checkpoint, fault);
+}
+
+cdem_status cdem_run_grains_build(cdem_run_grains *g, const cdem_state *checkpoint,
+                                  cdem_fault *fault) {
   CDEM_TRY(cdem_run_grains_materials(g, fault));
   CDEM_TRY(cdem_run_grains_contacts(g, fault));
   CDEM_TRY(cdem_run_grains_walls(g, checkpoint, fault));
@@ -30,6 +36,12 @@ static cdem_status build(cdem_run_setup *run, const cdem_state *checkpoint, cdem
   CDEM_TRY(cdem_run_grains_pictures_init(g, fault));
   CDEM_NEW(g->velocity, 3 * g->grains.grains, fault);
   return CDEM_OK;
+}
+
+static cdem_status build(cdem_run_setup *run, const cdem_state *checkpoint, cdem_fault *fault) {
+  cdem_run_grains *g;
+  CDEM_TRY(cdem_run_grains_create(run, checkpoint, &g, fault));
+  return cdem_run_grains_build(g, checkpoint, fault);
 }
 
 static void release(cdem_run_setup *run) {

@@ -11,6 +11,7 @@ typedef struct {
   cdem_table *table;
   bool declare; /* else fill the last row */
   int column;
+  const char *prefix; /* before names without a dot: "coarse."; NULL: none */
   cdem_status status; /* the first failure; nothing is put after it */
   cdem_fault *fault;
 } cdem_run_row;

@@ -86,8 +86,9 @@ static cdem_status build(const cdem_run_options *options, const cdem_state *chec
                          cdem_run_setup *setup, cdem_fault *fault) {
   setup->options = options;
   CDEM_TRY(read_case(options, setup, fault));
-  setup->engine =
-      cdem_case_given(&setup->cases, "grains") ? &cdem_run_engine_grains : &cdem_run_engine_body;
+  setup->engine = cdem_case_is_coupled(&setup->cases)   ? &cdem_run_engine_coupled
+                  : cdem_case_has_grains(&setup->cases) ? &cdem_run_engine_grains
+                                                        : &cdem_run_engine_body;
   return setup->engine->build(setup, checkpoint, fault);
 }
 

@@ -1,0 +1,192 @@
+/* The last state of a coupled case: grains and coarse medium in one picture, of one scale. */
+#include "dem/pictures.h"
+#include "io/run_files.h"
+#include "results/map.h"
+#include "run/axis.h"
+#include "run/coupled.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double view_flat[3] = {0, 0, -1}, up_flat[3] = {0, 1, 0};
+
+/* ---- the coarse medium ---- */
+
+/* Elements as polygons, and the cracks between them. */
+static cdem_status take_body(void *context, const cdem_frame *frame, cdem_fault *fault) {
+  static const struct {
+    cdem_interface_state state;
+    const char *title, *colour;
+  } crack[] = {{CDEM_INTERFACE_TENSION_FAILED, "failed in tension", "#d7191c"},
+               {CDEM_INTERFACE_SHEAR_FAILED, "failed in shear", "#2166ac"}};
+  cdem_map *map = context;
+  if (strcmp(frame->set, "body") == 0)
+    return cdem_map_from_frame(frame, "displacement", -1, view_flat, up_flat, 0.0, map, fault);
+  if (strcmp(frame->set, "interfaces") != 0)
+    return CDEM_OK;
+  for (size_t i = 0; i < sizeof crack / sizeof *crack; i++) {
+    CDEM_TRY(cdem_map_add_lines(map, frame, "state", 1u << crack[i].state, view_flat, up_flat,
+                                crack[i].title, crack[i].colour, 1.6, fault));
+    cdem_map_lines *lines = &map->lines[map->line_sets - 1];
+    lines->title = lines->segments > 0 ? crack[i].title : NULL;
+  }
+  return CDEM_OK;
+}
+
+/* The grains' field in an element; NaN where the body has no such thing. */
+static double cell_value(const double stress[6], const double strain[6], cdem_grain_field field) {
+  double trace = strain[0] + strain[1] + strain[2], sum = 0.0;
+  const double ordered[6] = {stress[0], stress[1], stress[2], stress[5], stress[3], stress[4]};
+  for (int d = 0; d < 3; d++)
+    sum +=
+        (strain[d] - trace / 3.0) * (strain[d] - trace / 3.0) + 0.5 * strain[3 + d] * strain[3 + d];
+  switch (field) {
+  case CDEM_GRAIN_PRESSURE:
+    return -0.5 * (stress[0] + stress[1]);
+  case CDEM_GRAIN_EFFECTIVE_STRESS:
+    return cdem_effective_stress(2, ordered);
+  case CDEM_GRAIN_VOLUMETRIC_STRAIN:
+    return trace;
+  case CDEM_GRAIN_EFFECTIVE_STRAIN:
+    return sqrt(2.0 / 3.0 * sum);
+  default:
+    return NAN;
+  }
+}
+
+static cdem_status colour_body(const cdem_run_body *body, int field, cdem_map *map,
+                               cdem_fault *fault) {
+  double *all;
+  if (field == CDEM_GRAIN_DISPLACEMENT)
+    return CDEM_OK; /* as taken */
+  CDEM_NEW(all, 12 * (int64_t)body->model.cells, fault);
+  double *stress = all, *strain = all + 6 * (int64_t)body->model.cells;
+  cdem_body_cell_fields(&body->body, body->solver.u,
+                        &(cdem_body_fields){.stress = stress, .strain = strain});
+  for (int64_t p = 0; p < map->polygons; p++)
+    map->value[p] = field < CDEM_GRAIN_FIELDS && p < body->model.cells
+                        ? cell_value(stress + 6 * p, strain + 6 * p, (cdem_grain_field)field)
+                        : NAN;
+  free(all);
+  return CDEM_OK;
+}
+
+static cdem_status draw_body(const cdem_run_coupled *c, int field, cdem_map *map,
+                             cdem_fault *fault) {
+  const cdem_frame_sink sink = {.context = map, .frame = take_body};
+  CDEM_TRY(cdem_solver_frames(&c->body->solver, 0, &sink, fault));
+  CDEM_TRY(colour_body(c->body, field, map, fault));
+  map->outlines = c->body->model.cells <= 20000;
+  return CDEM_OK;
+}
+
+/* ---- both ---- */
+
+enum { CHAINS = CDEM_GRAIN_FIELDS, VELOCITIES };
+
+static int choice_of(const char *name) {
+  return strcmp(name, "chains") == 0       ? CHAINS
+         : strcmp(name, "velocities") == 0 ? VELOCITIES
+                                           : cdem_grain_field_find(name);
+}
+
+static bool is_strain(int choice) {
+  return choice == CDEM_GRAIN_VOLUMETRIC_STRAIN || choice == CDEM_GRAIN_EFFECTIVE_STRAIN;
+}
+
+/* Only those that are calculated: interface grains are part of the coarse medium. */
+static cdem_status draw_grains(const cdem_run_coupled *c, int choice, const char *title,
+                               cdem_map *map, cdem_fault *fault) {
+  bool field = choice < CDEM_GRAIN_FIELDS, cut = c->grains->dim == 3 && !field;
+  const cdem_picture picture = {.kind = choice == CHAINS       ? CDEM_PICTURE_CHAINS
+                                        : choice == VELOCITIES ? CDEM_PICTURE_ARROWS
+                                        : is_strain(choice)    ? CDEM_PICTURE_BAND
+                                                               : CDEM_PICTURE_GRAINS,
+                                .field = field ? (cdem_grain_field)choice : CDEM_GRAIN_SPEED,
+                                .strain = c->strain,
+                                .title = title,
+                                .slice = cut,
+                                .middle = cut};
+  return cdem_dem_picture(&c->grains->dem, &picture, map, fault);
+}
+
+/* Gives the polygons and lines of the body to the map of the grains. */
+static cdem_status join(cdem_map *grains, cdem_map *body, cdem_fault *fault) {
+  grains->polygons = body->polygons;
+  grains->start = body->start;
+  grains->xy = body->xy;
+  grains->value = body->value;
+  grains->shade = body->shade;
+  grains->outlines = body->outlines;
+  body->polygons = 0;
+  body->start = NULL;
+  body->xy = body->value = body->shade = NULL;
+  for (int i = 0; i < body->line_sets; i++) {
+    const cdem_map_lines *from = &body->lines[i];
+    cdem_map_lines *to;
+    CDEM_TRY(cdem_map_add_segments(grains, from->segments, from->title, from->colour, from->width,
+                                   &to, fault));
+    memcpy(to->xy, from->xy, 4 * (size_t)from->segments * sizeof *to->xy);
+  }
+  return CDEM_OK;
+}
+
+static cdem_status make_map(const cdem_run_coupled *c, int choice, const char *title, cdem_map *map,
+                            cdem_fault *fault) {
+  cdem_map body = {0};
+  bool flat = cdem_run_values(c->run)->grains.dimension == 2;
+  cdem_status status = CDEM_OK;
+  if (c->has_grains)
+    status = draw_grains(c, choice, title, map, fault);
+  if (status == CDEM_OK && c->has_body && flat)
+    status = draw_body(c, choice, c->has_grains ? &body : map, fault);
+  if (status == CDEM_OK && c->has_grains && c->has_body && flat)
+    status = join(map, &body, fault);
+  cdem_map_release(&body);
+  return status;
+}
+
+/* What a picture of the body alone needs beside its polygons. */
+static void label_body(int choice, const char *title, cdem_map *map) {
+  static const char *const label[CDEM_GRAIN_FIELDS] = {
+      [CDEM_GRAIN_DISPLACEMENT] = "displacement |u|, m",
+      [CDEM_GRAIN_PRESSURE] = "pressure p, Pa",
+      [CDEM_GRAIN_EFFECTIVE_STRESS] = "effective stress σ_e, Pa",
+      [CDEM_GRAIN_VOLUMETRIC_STRAIN] = "volumetric strain ε_v",
+      [CDEM_GRAIN_EFFECTIVE_STRAIN] = "effective strain ε_e"};
+  map->title = title;
+  map->x_label = "x [m]";
+  map->y_label = "y [m]";
+  map->value_label = choice < CDEM_GRAIN_FIELDS ? label[choice] : NULL;
+  map->diverging = choice == CDEM_GRAIN_VOLUMETRIC_STRAIN;
+}
+
+cdem_status cdem_run_coupled_pictures(cdem_run_setup *run, const char *folder, cdem_fault *fault) {
+  static const char *const usual[] = {"displacement", "effective_strain", "chains"};
+  const cdem_run_coupled *c = cdem_run_coupled_of(run);
+  const cdem_case_texts *wanted = &cdem_run_values(run)->grains.pictures;
+  const double time = cdem_run_where(run).time;
+  const cdem_run_axis axis = cdem_run_axis_for("s", time);
+  int64_t count = wanted->count > 0 ? wanted->count : (int64_t)(sizeof usual / sizeof *usual);
+  char title[80];
+  snprintf(title, sizeof title, "t = %.4g %s", axis.factor * time, axis.unit);
+  for (int64_t i = 0; i < count; i++) {
+    const char *name = wanted->count > 0 ? wanted->item[i] : usual[i];
+    int choice = choice_of(name);
+    bool empty = !c->has_grains && (choice >= CDEM_GRAIN_FIELDS || c->body->model.dimension == 3);
+    cdem_map map = {0};
+    if (empty)
+      continue;
+    cdem_status status = make_map(c, choice, title, &map, fault);
+    if (status == CDEM_OK && !c->has_grains)
+      label_body(choice, title, &map);
+    if (status == CDEM_OK)
+      status =
+          cdem_write_map(folder, choice == CDEM_GRAIN_DISPLACEMENT ? "pattern" : name, &map, fault);
+    cdem_map_release(&map);
+    CDEM_TRY(status);
+  }
+  return CDEM_OK;
+}
