@@ -14,6 +14,7 @@ typedef struct {
 
 #define CDEM_DIMENSIONLESS ((cdem_dimension){0, 0, 0})
 #define CDEM_LENGTH        ((cdem_dimension){1, 0, 0})
+#define CDEM_TIME          ((cdem_dimension){0, 1, 0})
 #define CDEM_PRESSURE      ((cdem_dimension){-1, -2, 1})
 #define CDEM_FORCE         ((cdem_dimension){1, -2, 1})
 #define CDEM_DENSITY       ((cdem_dimension){-3, 0, 1})

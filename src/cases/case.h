@@ -277,18 +277,29 @@ typedef struct {
   char *x_label, *y_label;
 } cdem_case_curve;
 
-/* results: of a run, key numbers in summary.json: NAME: {of: column, take: max|min|last|mean|slope}
- */
+/* results: of a run, key numbers in summary.json: NAME: {of: column, take: max} */
 typedef struct {
   char *name;
   char *of;
-  int take;                    /* max min last mean slope */
+  int take;                    /* CDEM_TAKE_MAX .. */
+  char *along;                 /* column in which a place lies; NULL: time */
   double from, to;             /* rows of this time only, s; NaN: of all */
   double factor;               /* multiplies the column before */
   double reference, tolerance; /* expected value and relative tolerance; NaN: none */
   cdem_case_texts against;     /* columns whose sum, taken alike, is the reference */
   double against_factor;       /* multiplies that sum before */
 } cdem_case_key_result;
+
+enum { /* the choices of `take` */
+       CDEM_TAKE_MAX,
+       CDEM_TAKE_MIN,
+       CDEM_TAKE_LAST,
+       CDEM_TAKE_MEAN,
+       CDEM_TAKE_SLOPE,
+       CDEM_TAKE_SCATTER,
+       CDEM_TAKE_PLACE_OF_MAX,
+       CDEM_TAKE_PLACE_OF_MIN
+};
 
 typedef enum {
   CDEM_ANALYSIS_DYNAMIC,

@@ -251,7 +251,13 @@ static cdem_status result_fail(const cdem_case *cases, const cdem_case_key_resul
 static cdem_status check_result(const cdem_case *cases, const cdem_case_key_result *result,
                                 cdem_fault *fault) {
   char key[CDEM_CASE_PATH];
-  bool number = !isnan(result->reference), columns = result->against.count > 0;
+  bool number = !isnan(result->reference), columns = result->against.count > 0,
+       place = result->take == CDEM_TAKE_PLACE_OF_MAX || result->take == CDEM_TAKE_PLACE_OF_MIN;
+  if (result->along != NULL && !place)
+    return result_fail(cases, result, "along",
+                       "'along' has a meaning beside 'take: place_of_max' and 'take: place_of_min' "
+                       "only",
+                       fault);
   if (!isnan(result->tolerance) && !number && !columns)
     return result_fail(cases, result, "tolerance", "'tolerance' needs 'reference' beside it",
                        fault);

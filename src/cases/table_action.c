@@ -164,16 +164,22 @@ const cdem_case_section cdem_section_curves = SECTION(
 
 /* ---- results ---- */
 
-static const char *const takes[] = {"max", "min", "last", "mean", "slope", NULL};
+static const char *const takes[] = {"max",     "min",          "last",         "mean", "slope",
+                                    "scatter", "place_of_max", "place_of_min", NULL};
 
 #define RESULT(member) AT(cdem_case_key_result, member)
 static const cdem_case_key results[] = {
     {RESULT(of), .kind = CDEM_KEY_TEXT, .required = true, .help = "Column of history.csv.",
      .example = "top_force"},
     {RESULT(take), .kind = CDEM_KEY_CHOICE, .choice = takes,
-     .help = "What of the column: its largest, smallest, last or mean value, or the slope of its "
-             "best line against time.",
+     .help = "What of the column: its largest, smallest, last or mean value, the slope of its best "
+             "line against time, the scatter of its rows (standard deviation), or the place of its "
+             "largest or smallest value.",
      .example = "min"},
+    {RESULT(along), .kind = CDEM_KEY_TEXT, .otherwise = "time",
+     .help = "Of a place: the column of history.csv whose value in that row is reported, in its "
+             "own unit.",
+     .example = "probe.strain"},
     {RESULT(from), .kind = CDEM_KEY_NUMBER, .dimension = TIME, .fallback = NAN, NOT_NEGATIVE,
      DOMAIN, .otherwise = "the start", .help = "Rows of history.csv before this time do not count.",
      .example = "0.5 s"},

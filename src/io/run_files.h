@@ -34,6 +34,28 @@ void cdem_history_destroy(cdem_history_writer **writer);
 /* Reads a history back (all columns real). */
 cdem_status cdem_read_history(const char *path, cdem_table *table, cdem_fault *fault);
 
+/* ---- summary.json, read back as far as runs are compared by it (summary_file.c) ---- */
+
+/* A key result, and how the case takes it. Units and settings that are null or, in older files,
+ * missing: NULL and NaN. */
+typedef struct {
+  char *name, *unit;
+  double value; /* NaN: the run has none */
+  char *of, *take;
+  double from, to, factor; /* s, s, - */
+} cdem_summary_result;
+
+typedef struct {
+  double wall_time; /* s */
+  int64_t results;
+  cdem_summary_result *result; /* [results], in the order of the case */
+} cdem_summary_file;
+
+/* CDEM_INPUT, with line, column and caret, for a file that is broken, changed or something else. */
+cdem_status cdem_read_summary(const char *path, cdem_summary_file *summary, cdem_fault *fault);
+/* Safe on a zeroed summary and twice. */
+void cdem_summary_file_release(cdem_summary_file *summary);
+
 /* ---- states: HDF5, replaced as a whole (state_file.c, mesh_state.c) ---- */
 
 /* Every bit of every array comes back. A file that was cut short or changed by one byte is

@@ -39,3 +39,29 @@ void cdem_run_rescale(double *value, int64_t count, double factor) {
   for (int64_t i = 0; i < count; i++)
     value[i] *= factor;
 }
+
+void cdem_run_label(const char *name, const char *unit, char text[CDEM_RUN_LABEL]) {
+  size_t used = 0;
+  for (const char *c = name; *c != '\0' && used + 24 < CDEM_RUN_LABEL; c++) {
+    if (strchr("_^{}\\@&~", *c) != NULL)
+      text[used++] = '\\';
+    text[used++] = *c;
+  }
+  snprintf(text + used, CDEM_RUN_LABEL - used, "%s%.16s%s", unit[0] != '\0' ? " [" : "", unit,
+           unit[0] != '\0' ? "]" : "");
+}
+
+const char *cdem_run_bare_name(const cdem_table *history, int column) {
+  const char *name = history->column[column].name;
+  return name + (strncmp(name, "probe.", 6) == 0 ? 6 : 0);
+}
+
+cdem_status cdem_run_column_values(const cdem_table *history, int column, double scale,
+                                   double **values, cdem_fault *fault) {
+  CDEM_NEW(*values, history->rows, fault);
+  for (int64_t r = 0; r < history->rows; r++) {
+    const cdem_value *value = cdem_table_at(history, r, column);
+    (*values)[r] = value->absent ? NAN : scale * value->real;
+  }
+  return CDEM_OK;
+}

@@ -2,7 +2,7 @@
 #ifndef CDEM_RUN_AXIS_H
 #define CDEM_RUN_AXIS_H
 
-#include <stdint.h>
+#include "results/results.h"
 
 /* A unit with the SI prefix that keeps its numbers short: 0.0004 s is drawn as 0.4 ms. */
 typedef struct {
@@ -13,5 +13,16 @@ typedef struct {
 cdem_run_axis cdem_run_axis_for(const char *unit, double largest);
 double cdem_run_largest(const double *value, int64_t count);
 void cdem_run_rescale(double *value, int64_t count, double factor);
+
+enum { CDEM_RUN_LABEL = 200 };
+/* "reaction.top_y [N]" with underscores as they are: gnuplot's markup is switched off. unit "":
+ * none.
+ */
+void cdem_run_label(const char *name, const char *unit, char text[CDEM_RUN_LABEL]);
+/* A probe's own name, without "probe.". */
+const char *cdem_run_bare_name(const cdem_table *history, int column);
+/* A column times a scale as a new array [history->rows]; NaN where it has no value. */
+cdem_status cdem_run_column_values(const cdem_table *history, int column, double scale,
+                                   double **values, cdem_fault *fault);
 
 #endif

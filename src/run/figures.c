@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_CURVES = 8, LABEL = 200 };
+enum { MOST_CURVES = 8, LABEL = CDEM_RUN_LABEL };
 
 /* Columns as arrays, and texts with gnuplot's markup switched off. */
 typedef struct {
@@ -23,41 +23,13 @@ static void curve_set_release(curve_set *set) {
     free(set->y[i]);
 }
 
-/* "reaction.top_y [N]" with underscores as they are. */
-static void label(const char *name, const char *unit, char text[LABEL]) {
-  size_t used = 0;
-  for (const char *c = name; *c != '\0' && used + 24 < LABEL; c++) {
-    if (strchr("_^{}\\", *c) != NULL)
-      text[used++] = '\\';
-    text[used++] = *c;
-  }
-  snprintf(text + used, LABEL - used, "%s%.16s%s", unit[0] != '\0' ? " [" : "", unit,
-           unit[0] != '\0' ? "]" : "");
-}
-
-/* A probe's own name, without "probe.". */
-static const char *bare_name(const cdem_table *history, int column) {
-  const char *name = history->column[column].name;
-  return name + (strncmp(name, "probe.", 6) == 0 ? 6 : 0);
-}
-
-static cdem_status column_values(const cdem_table *history, int column, double scale,
-                                 double **values, cdem_fault *fault) {
-  CDEM_NEW(*values, history->rows, fault);
-  for (int64_t r = 0; r < history->rows; r++) {
-    const cdem_value *value = cdem_table_at(history, r, column);
-    (*values)[r] = value->absent ? NAN : scale * value->real;
-  }
-  return CDEM_OK;
-}
-
 static cdem_status add_curve(const cdem_table *history, int column, double scale, curve_set *set,
                              cdem_fault *fault) {
   int i = set->curves;
   if (i == MOST_CURVES)
     return CDEM_OK;
-  CDEM_TRY(column_values(history, column, scale, &set->y[i], fault));
-  label(bare_name(history, column), "", set->title[i]);
+  CDEM_TRY(cdem_run_column_values(history, column, scale, &set->y[i], fault));
+  cdem_run_label(cdem_run_bare_name(history, column), "", set->title[i]);
   set->curve[i] = (cdem_curve){
       .title = set->title[i], .x = set->x, .y = set->y[i], .points = history->rows, .style = i};
   set->curves++;
@@ -90,7 +62,7 @@ static cdem_run_axis shorten_y(curve_set *set, const char *unit, double largest,
 static cdem_status fill_curve(const cdem_case_curve *wanted, const cdem_table *history,
                               curve_set *set, char labels[2][LABEL], cdem_fault *fault) {
   int x = cdem_run_history_find(history, wanted->x != NULL ? wanted->x : "time");
-  CDEM_TRY(column_values(history, x, wanted->x_scale, &set->x, fault));
+  CDEM_TRY(cdem_run_column_values(history, x, wanted->x_scale, &set->x, fault));
   int y = 0;
   for (int64_t i = 0; i < wanted->y.count; i++) {
     y = cdem_run_history_find(history, wanted->y.item[i]);
@@ -102,8 +74,9 @@ static cdem_status fill_curve(const cdem_case_curve *wanted, const cdem_table *h
     unit[0] = shorten_x(set, history->column[x].unit, history->rows);
   if (fabs(wanted->y_scale) == 1.0 && wanted->y_label == NULL)
     unit[1] = shorten_y(set, history->column[y].unit, largest_y(set, history->rows), history->rows);
-  label(bare_name(history, x), unit[0].unit, labels[0]);
-  label(wanted->y.count == 1 ? bare_name(history, y) : "", unit[1].unit, labels[1]);
+  cdem_run_label(cdem_run_bare_name(history, x), unit[0].unit, labels[0]);
+  cdem_run_label(wanted->y.count == 1 ? cdem_run_bare_name(history, y) : "", unit[1].unit,
+                 labels[1]);
   if (set->curves == 1)
     set->curve[0].title = NULL;
   return CDEM_OK;
@@ -144,7 +117,7 @@ static bool is_zero(const cdem_table *history, int column) {
 
 static cdem_status fill_energies(const cdem_table *history, const cdem_run_energy_panel *group,
                                  curve_set *set, cdem_fault *fault) {
-  CDEM_TRY(column_values(history, cdem_table_find(history, "time"), 1.0, &set->x, fault));
+  CDEM_TRY(cdem_run_column_values(history, cdem_table_find(history, "time"), 1.0, &set->x, fault));
   for (int i = 0; i < CDEM_RUN_PANEL_COLUMNS && group->column[i] != NULL; i++) {
     int column = cdem_table_find(history, group->column[i]);
     if (column >= 0 && !is_zero(history, column))

@@ -88,6 +88,9 @@ static cdem_status check_names(const cdem_run_setup *setup, const cdem_table *ta
     const cdem_case_key_result *result = &values->results.item[i];
     CDEM_TRY(check_column(setup, table, cdem_run_named_key(key, "results", result->name, "of"),
                           result->of, fault));
+    if (result->along != NULL)
+      CDEM_TRY(check_column(setup, table, cdem_run_named_key(key, "results", result->name, "along"),
+                            result->along, fault));
     for (int64_t c = 0; c < result->against.count; c++)
       CDEM_TRY(check_column(setup, table,
                             cdem_run_named_key(key, "results", result->name, "against"),

@@ -33,7 +33,7 @@ static void add_quoted(cdem_json *json, const char *text) {
     char escaped[8];
     if (*c == '"' || *c == '\\')
       snprintf(escaped, sizeof escaped, "\\%c", *c);
-    else if ((unsigned char)*c < 0x20)
+    else if ((unsigned char)*c < 0x20 || *c == 0x7f) /* which YAML, our reader, refuses */
       snprintf(escaped, sizeof escaped, "\\u%04x", (unsigned)(unsigned char)*c);
     else
       snprintf(escaped, sizeof escaped, "%c", *c);

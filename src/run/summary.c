@@ -2,6 +2,7 @@
 #include "run/summary.h"
 
 #include "io/io.h"
+#include "run/take.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -10,7 +11,6 @@
 #include <string.h>
 
 enum { NAME, VALUE, UNIT, REFERENCE, DIFFERENCE }; /* columns of summary->keys */
-enum { MAX, MIN, LAST, MEAN, SLOPE };              /* the choices of `take` */
 
 void cdem_run_summary_release(cdem_run_summary *summary) {
   free(summary->title);
@@ -27,54 +27,24 @@ void cdem_run_summary_sizes(const cdem_run_setup *setup, cdem_run_summary *summa
 
 /* ---- key results ---- */
 
-/* Sum of columns in a row; NaN where one has no value. */
-static double sum_of(const cdem_table *history, int64_t row, int columns, const int *column) {
-  double sum = 0.0;
-  for (int c = 0; c < columns; c++) {
-    const cdem_value *value = cdem_table_at(history, row, column[c]);
-    sum += value->absent ? NAN : value->real;
-  }
-  return sum;
+static bool is_place(const cdem_case_key_result *result) {
+  return result->take == CDEM_TAKE_PLACE_OF_MAX || result->take == CDEM_TAKE_PLACE_OF_MIN;
 }
 
-/* The slope of the line that fits best over time; sums about the first row, whose digits would
- * else be lost in the squares. */
-typedef struct {
-  double t0, v0, t, v, tt, tv;
-} line;
-
-static void line_add(line *l, bool first, double time, double value) {
-  if (first)
-    *l = (line){.t0 = time, .v0 = value};
-  double t = time - l->t0, v = value - l->v0;
-  l->t += t;
-  l->v += v;
-  l->tt += t * t;
-  l->tv += t * v;
+static int along(const cdem_table *history, const cdem_case_key_result *result) {
+  return cdem_run_history_find(history, result->along != NULL ? result->along : "time");
 }
 
-/* max, min, last, mean or slope over the rows that count and have a value; NaN when none has. */
 static double taken(const cdem_table *history, const cdem_case_key_result *result, int columns,
                     const int *column, double factor) {
-  double found = NAN, sum = 0.0;
-  int take = result->take, clock = cdem_table_find(history, "time");
-  int64_t count = 0;
-  line l = {0};
-  for (int64_t r = 0; r < history->rows; r++) {
-    double v = factor * sum_of(history, r, columns, column),
-           time = clock >= 0 ? cdem_table_at(history, r, clock)->real : 0.0;
-    if (isnan(v) || time < result->from || time > result->to)
-      continue;
-    bool first = count++ == 0;
-    sum += v;
-    line_add(&l, first, time, v);
-    if (first || take == LAST || (take == MAX && v > found) || (take == MIN && v < found))
-      found = v;
-  }
-  double n = (double)count;
-  if (take == SLOPE)
-    return (n * l.tv - l.t * l.v) / (n * l.tt - l.t * l.t); /* NaN below two rows */
-  return take == MEAN && count > 0 ? sum / n : found;
+  const cdem_run_taking taking = {.take = result->take,
+                                  .from = result->from,
+                                  .to = result->to,
+                                  .factor = factor,
+                                  .columns = columns,
+                                  .column = column,
+                                  .along = along(history, result)};
+  return cdem_run_take(history, &taking);
 }
 
 /* The expected value; NaN: none. */
@@ -96,19 +66,28 @@ static double difference(double value, double reference) {
   return reference != 0.0 ? (value - reference) / fabs(reference) : value;
 }
 
+/* A factor that is more than a sign may carry a unit of its own (1/area: force to stress); a place
+ * has the unit of the column in which it lies, which no factor touches. */
+static void put_unit(const cdem_case_key_result *result, const cdem_table *history, int column,
+                     char unit[32]) {
+  unit[0] = '\0';
+  if (is_place(result))
+    snprintf(unit, 32, "%.24s", history->column[along(history, result)].unit);
+  else if (fabs(result->factor) == 1.0)
+    snprintf(unit, 32, "%.24s%s", history->column[column].unit,
+             result->take == CDEM_TAKE_SLOPE ? "/s" : "");
+}
+
 static cdem_status add_key(const cdem_case_key_result *result, const cdem_table *history,
                            cdem_run_summary *summary, cdem_fault *fault) {
   cdem_table *keys = &summary->keys;
   int column = cdem_run_history_find(history, result->of);
   double value = taken(history, result, 1, &column, result->factor), reference;
-  char unit[32] = "";
+  char unit[32];
   CDEM_TRY(expected(result, history, &reference, fault));
   CDEM_TRY(cdem_table_add_row(keys, fault));
   CDEM_TRY(cdem_table_set_text(keys, NAME, result->name, fault));
-  /* A factor that is more than a sign may carry a unit of its own (1/area: force to stress). */
-  if (fabs(result->factor) == 1.0)
-    snprintf(unit, sizeof unit, "%.24s%s", history->column[column].unit,
-             result->take == SLOPE ? "/s" : "");
+  put_unit(result, history, column, unit);
   CDEM_TRY(cdem_table_set_text(keys, UNIT, unit, fault));
   cdem_table_set_real(keys, VALUE, value);
   if (isnan(result->reference) && result->against.count == 0)

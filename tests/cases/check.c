@@ -137,6 +137,8 @@ static void wrong_combinations(void **state) {
       {ROCK "results: {r: {of: time, reference: 1, against: time}}\n",
        "c.yaml:5:48: the expected value is 'reference' or 'against', not both"},
       {ROCK "results: {r: {of: time, against_factor: 2}}\n", "'against_factor' needs 'against'"},
+      {ROCK "results: {r: {of: time, take: scatter, along: step}}\n",
+       "'along' has a meaning beside 'take: place_of_max' and 'take: place_of_min' only"},
       {ROCK "results: {r: {of: time, from: 2 ms, to: 1 ms}}\n", "'to' must be later than 'from'"},
       {ROCK "results: {r: {of: time, from: 1 ms}}\n", "'from' must be earlier than 'end'"},
   };
@@ -172,6 +174,8 @@ static void right_combinations(void **state) {
       ROCK "initial: [{spin: [0, 0, 1], center: [1, 1]}]\n",
       ROCK "probes: {p: {group: a, quantity: force, component: magnitude}}\n",
       ROCK "results: {r: {of: time, reference: 0}}\n",
+      ROCK "results: {r: {of: time, take: place_of_min, along: step}}\n",
+      ROCK "results: {r: {of: time, take: place_of_max}}\n",
   };
   for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
     cdem_fault fault = {0};
