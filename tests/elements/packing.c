@@ -98,6 +98,50 @@ static void printed_is_as_printed(void **state) {
   check_near(d[1], nu * young / (1 - nu * nu), 1e-14, 0);
 }
 
+/* Twice the energy per area density NV of contacts in space, `turn` the rotation's difference to
+ * the spin about z; directions of an integration rule that is exact for products of five. */
+static double space_energy(const double e[9], double turn, double roll) {
+  double sum = 0.0;
+  for (int i = 0; i < 27; i++) {
+    double n[3] = {i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1};
+    int zeros = (n[0] == 0) + (n[1] == 0) + (n[2] == 0);
+    double weight = zeros == 2 ? 1.0 / 15 : zeros == 0 ? 3.0 / 40 : 0.0, step[3];
+    double size = sqrt(3.0 - zeros), normal = 0.0, all = 0.0;
+    for (int k = 0; k < 3 && weight > 0; k++)
+      n[k] /= size;
+    for (int k = 0; k < 3; k++) {
+      step[k] = 2 * (e[3 * k] * n[0] + e[3 * k + 1] * n[1] + e[3 * k + 2] * n[2]);
+      step[k] += 2 * turn * (k == 0 ? -n[1] : k == 1 ? n[0] : 0.0);
+      normal += step[k] * n[k];
+      all += step[k] * step[k];
+    }
+    sum += weight *
+           (kn * normal * normal + ks * (all - normal * normal) + kw * pow(2 * roll * n[0], 2));
+  }
+  return sum;
+}
+
+/* docs/theory/cosserat.md, section 5: (21) is 15/4 and (22) 15/8 times the average over space, (23)
+ * is that average; (24) fits the plane's G and a factor of 2. */
+static void printed_mixes_averages(void **state) {
+  (void)state;
+  const double pull[9] = {1}, shear[9] = {0, 0.5, 0, 0.5}, none[9] = {0};
+  double g = space_energy(shear, 0, 0), lambda = space_energy(pull, 0, 0) - 2 * g; /* of NV = 1 */
+  double gc = 0.25 * space_energy(none, 1, 0), couple = space_energy(none, 0, 1);
+  check_near(g, 2.0 / 15 * (2 * kn + 3 * ks), 1e-14, 0);
+  check_near(lambda, 4.0 / 15 * (kn - ks), 1e-13, 0);
+  cdem_material m = packing(PRINTED);
+  m.parameter[4] = 1.0;
+  moduli(&m, &unit_section);
+  check_near(d[1], 15.0 / 8 * lambda, 1e-13, 0);
+  check_near(0.5 * (d[14] + d[15]), 15.0 / 4 * g, 1e-13, 0);
+  check_near(0.5 * (d[14] - d[15]), gc, 1e-13, 0);
+  m.parameter[5] = 0.0;
+  m.parameter[6] = 1e-9;
+  double length = cdem_material_length(&m), plane = 0.5 * (kn + ks);
+  check_near(2 * plane * length * length, couple, 1e-9, 0);
+}
+
 /* A contact is as thick as the section: stiffness of a body does not know the thickness. */
 static void thickness_cancels(void **state) {
   (void)state;
@@ -229,6 +273,7 @@ int main(void) {
       cmocka_unit_test(lattice_is_the_sum_over_two_directions),
       cmocka_unit_test(average_is_the_mean_over_directions),
       cmocka_unit_test(printed_is_as_printed),
+      cmocka_unit_test(printed_mixes_averages),
       cmocka_unit_test(thickness_cancels),
       cmocka_unit_test(lengths_and_inertia),
       cmocka_unit_test(sliding_has_no_part_in_a_linear_rotation),
