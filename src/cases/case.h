@@ -49,7 +49,7 @@ typedef struct {
   char *name;
   cdem_material material;
   double density;         /* kg/m^3; NaN: none (static runs without gravity) */
-  double micro_inertia;   /* m^2; NaN: square of the material's length */
+  double micro_inertia;   /* m^2; NaN: cdem_material_micro_inertia */
   cdem_case_texts groups; /* none: wherever no other material is */
 } cdem_case_material;
 

@@ -49,7 +49,9 @@ static const cdem_case_key materials[] = {
      GRAIN, .otherwise = "none: static runs without gravity only", .help = "Mass per volume.",
      .example = "2700 kg/m3"},
     {MATERIAL(micro_inertia), .kind = CDEM_KEY_NUMBER, .dimension = AREA, .fallback = NAN, POSITIVE,
-     GRAIN, .otherwise = "square of the material's characteristic length",
+     GRAIN,
+     .otherwise = "discs: half the square of their radius; else the square of the characteristic "
+                  "length",
      .help = "Cosserat materials: rotational inertia of a material point per mass.",
      .example = "4 mm2"},
     {MATERIAL(groups), .kind = CDEM_KEY_TEXTS, .otherwise = "wherever no other material is",

@@ -21,7 +21,10 @@ static const char *const model_names[CDEM_MATERIAL_MODEL_COUNT + 1] = {
     [CDEM_ORTHOTROPIC] = "orthotropic",
     [CDEM_ANISOTROPIC] = "anisotropic",
     [CDEM_COSSERAT] = "cosserat",
-    [CDEM_COSSERAT_CUBIC] = "cosserat-cubic"};
+    [CDEM_COSSERAT_CUBIC] = "cosserat-cubic",
+    [CDEM_COSSERAT_LATTICE] = "cosserat-lattice",
+    [CDEM_COSSERAT_AVERAGE] = "cosserat-average",
+    [CDEM_COSSERAT_PRINTED] = "cosserat-printed"};
 
 static void visit_at(const walker *walk, const char *prefix, const cdem_case_key *key) {
   char path[CDEM_CASE_PATH];
@@ -42,7 +45,8 @@ static bool met_before(int model, const char *key) {
 static const char *example_of(cdem_dimension dimension) {
   if (dimension.mass == 0)
     return dimension.length == 0 ? "0.25" : "2 mm";
-  return dimension.length == 1 ? "40 kN" : "30 GPa";
+  static const char *const by_length[] = {[0] = "250 MN/m", [1] = "40 kN", [2] = "700 N m"};
+  return dimension.length < 0 ? "30 GPa" : by_length[dimension.length];
 }
 
 /* The keys that CDEM_KEY_MATERIAL stands for, from the table of models. */

@@ -44,10 +44,10 @@ static cdem_status copy_materials(const cdem_model *model, const cdem_body_optio
   CDEM_BODY_NEW(store, store->density, model->materials, fault);
   CDEM_BODY_NEW(store, store->micro_inertia, model->materials, fault);
   for (int m = 0; m < model->materials; m++) {
-    double length = cdem_material_length(&model->materials_of[m]);
     store->density[m] = options->density[m];
-    store->micro_inertia[m] =
-        options->micro_inertia != NULL ? options->micro_inertia[m] : length * length;
+    store->micro_inertia[m] = options->micro_inertia != NULL
+                                  ? options->micro_inertia[m]
+                                  : cdem_material_micro_inertia(&model->materials_of[m]);
   }
   CDEM_BODY_NEW(store, store->law, model->materials, fault);
   for (int32_t i = 0; i < model->cells; i++) {

@@ -33,7 +33,7 @@ enum { CDEM_CLASSES = 3 }; /* edge, face, body: cdem_class - 1 */
 typedef struct {
   const double *density;       /* [model->materials] kg/m^3 */
   const double *micro_inertia; /* [model->materials] m^2, Cosserat: inertia of a node = this times
-                                  its mass; NULL: the square of the material's length */
+                                  its mass; NULL: cdem_material_micro_inertia */
   bool linear;                 /* no rotation: small displacements (tests, static comparison) */
   bool separate;               /* congruent elements share nothing (tests, benchmark) */
   int threads;                 /* 0: OpenMP's default */

@@ -43,9 +43,9 @@ static void cosserat_law(const cdem_material *material, const cdem_section *sect
   /* s = (sxy + syx)/2 with exy = (g + r)/2, eyx = (g - r)/2. */
   law->stress[5][5] = 0.25 * (d[14] + d[15] + d[20] + d[21]);
   law->stress[5][6] = 0.25 * (d[14] - d[15] + d[20] - d[21]);
-  if (material->model != CDEM_COSSERAT)
-    return;
-  double poisson = material->parameter[1];
+  if (material->model != CDEM_COSSERAT && material->model != CDEM_COSSERAT_PRINTED)
+    return;                     /* plane moduli: nothing is known out of the plane */
+  double poisson = d[1] / d[0]; /* in plane stress */
   for (int j = 0; j < 2; j++)
     if (section->plane == CDEM_PLANE_STRAIN)
       law->stress[2][j] = d[1];

@@ -29,6 +29,19 @@ cdem_moduli_kind cdem_formulation_moduli(cdem_formulation formulation);
 cdem_status cdem_formulation_thickness(cdem_formulation formulation, const cdem_section *section,
                                        double *thickness, cdem_fault *fault);
 
+/* The parameter of a key that the model has. */
+double cdem_material_value(const cdem_material *material, const char *key);
+/* m = D11 D12 D1212 D1221 Dm of an isotropic plane Cosserat continuum; spin is Gc. */
+void cdem_isotropic_numbers(double lambda, double shear, double spin, double couple, double m[5]);
+/* The same five of cosserat-lattice and cosserat-average, times the thickness of the discs (N/m;
+ * the last N m). */
+void cdem_packing_numbers(const cdem_material *material, double m[5]);
+/* Li & Wan's eqs 21-24 as printed, times the thickness of the discs (N/m; the last m^2). */
+typedef struct {
+  double shear, lambda, spin, length_squared;
+} cdem_packing_constants;
+void cdem_packing_printed(const cdem_material *material, cdem_packing_constants *constants);
+
 bool cdem_rule_triangle(int degree, cdem_quadrature *rule);
 bool cdem_rule_square(int degree, cdem_quadrature *rule);
 bool cdem_rule_tetrahedron(int degree, cdem_quadrature *rule);

@@ -1,5 +1,5 @@
 /* Models and their keys: the one table from which files are read and help is printed. */
-#include "elements/material.h"
+#include "elements/basis.h"
 
 #include <assert.h>
 #include <string.h>
@@ -8,6 +8,10 @@
   { -1, -2, 1 }
 #define FORCE                                                                                      \
   { 1, -2, 1 }
+#define STIFFNESS_OF_CONTACT                                                                       \
+  { 0, -2, 1 }
+#define MOMENT                                                                                     \
+  { 2, -2, 1 }
 #define LENGTH                                                                                     \
   { 1, 0, 0 }
 #define RATIO                                                                                      \
@@ -63,17 +67,48 @@ static const cdem_material_key cosserat_cubic[] = {
     {"couple_modulus", FORCE, false, 0, true, "m_x by kappa_x, and m_y by kappa_y"},
 };
 
-#define MODEL(name, keys, help)                                                                    \
-  { name, (int)(sizeof(keys) / sizeof *(keys)), keys, help }
+/* The words of the contact laws (dem/law_keys.def), the first four of every packing. */
+#define CONTACTS                                                                                   \
+  {"normal_stiffness", STIFFNESS_OF_CONTACT, false, 0, true, "force per overlap of two discs"},    \
+      {"shear_stiffness", STIFFNESS_OF_CONTACT, false, 0, true, "force per sliding way"},          \
+      {"rolling_stiffness", MOMENT, false, 0, true, "moment per relative rotation"}, {             \
+    "radius", LENGTH, false, 0, true,                                                              \
+        "of the discs, of several sizes sqrt(sum r^4/sum r^2): micro-inertia r^2/2 per mass"       \
+  }
+#define CONTACT_DENSITY                                                                            \
+  {                                                                                                \
+    "contact_density", RATIO, false, 0, true,                                                      \
+        "N r^2/area, contacts counted once: coordination number * solid fraction/(2 pi)"           \
+  }
+static const cdem_material_key cosserat_lattice[] = {CONTACTS};
+static const cdem_material_key cosserat_average[] = {CONTACTS, CONTACT_DENSITY};
+static const cdem_material_key cosserat_printed[] = {
+    CONTACTS,
+    CONTACT_DENSITY,
+    {"rolling_force_stiffness", STIFFNESS_OF_CONTACT, true, 0, false, "k_r of eq 24, not negative"},
+    {"representative_length", LENGTH, false, 0, true, "L of eq 24"},
+};
+
+#define MODEL(name, keys, isotropic, help)                                                         \
+  { name, (int)(sizeof(keys) / sizeof *(keys)), keys, isotropic, help }
 static const cdem_material_model_info models[CDEM_MATERIAL_MODEL_COUNT] = {
-    [CDEM_ISOTROPIC] = MODEL("isotropic", isotropic, "linear elastic, the same in all directions"),
+    [CDEM_ISOTROPIC] =
+        MODEL("isotropic", isotropic, true, "linear elastic, the same in all directions"),
     [CDEM_ORTHOTROPIC] =
-        MODEL("orthotropic", orthotropic, "linear elastic, three planes of symmetry"),
+        MODEL("orthotropic", orthotropic, false, "linear elastic, three planes of symmetry"),
     [CDEM_ANISOTROPIC] =
-        MODEL("anisotropic", anisotropic, "linear elastic, all 21 moduli, upper triangle"),
-    [CDEM_COSSERAT] = MODEL("cosserat", cosserat, "plane Cosserat continuum, isotropic"),
-    [CDEM_COSSERAT_CUBIC] =
-        MODEL("cosserat-cubic", cosserat_cubic, "plane Cosserat continuum of a square lattice"),
+        MODEL("anisotropic", anisotropic, false, "linear elastic, all 21 moduli, upper triangle"),
+    [CDEM_COSSERAT] = MODEL("cosserat", cosserat, true, "plane Cosserat continuum, isotropic"),
+    [CDEM_COSSERAT_CUBIC] = MODEL("cosserat-cubic", cosserat_cubic, false,
+                                  "plane Cosserat continuum of a square lattice"),
+    [CDEM_COSSERAT_LATTICE] = MODEL("cosserat-lattice", cosserat_lattice, false,
+                                    "discs in the square lattice at 45 degrees, from contacts"),
+    [CDEM_COSSERAT_AVERAGE] =
+        MODEL("cosserat-average", cosserat_average, true,
+              "discs with contacts in all directions alike, two-dimensional average"),
+    [CDEM_COSSERAT_PRINTED] =
+        MODEL("cosserat-printed", cosserat_printed, true,
+              "Li & Wan's eqs 21-24 as printed; eq 21 is the three-dimensional pattern"),
 };
 
 const cdem_material_model_info *cdem_material_model_get(cdem_material_model model) {
@@ -98,5 +133,21 @@ double cdem_material_length(const cdem_material *material) {
     return sqrt(p[4]) * p[3];
   if (material->model == CDEM_COSSERAT_CUBIC) /* D1212 + D1221 = 2G */
     return sqrt(p[4] / (0.5 * (p[2] + p[3])));
-  return 0.0;
+  if (material->model == CDEM_COSSERAT_PRINTED) {
+    cdem_packing_constants c;
+    cdem_packing_printed(material, &c);
+    return sqrt(c.length_squared);
+  }
+  if (!cdem_material_is_cosserat(material))
+    return 0.0;
+  double m[5]; /* the thickness is in both and cancels */
+  cdem_packing_numbers(material, m);
+  return sqrt(m[4] / (0.5 * (m[2] + m[3])));
+}
+
+double cdem_material_micro_inertia(const cdem_material *material) {
+  double length = cdem_material_length(material);
+  if (material->model >= CDEM_COSSERAT_LATTICE && cdem_material_is_cosserat(material))
+    length = sqrt(0.5) * cdem_material_value(material, "radius");
+  return length * length;
 }

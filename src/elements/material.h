@@ -1,4 +1,5 @@
-/* Materials: isotropic, orthotropic, fully anisotropic, Cosserat. SI units.
+/* Materials: isotropic, orthotropic, fully anisotropic, Cosserat by moduli or by the contacts of
+ * discs. SI units.
  *
  * A material is what a person can measure; moduli for a formulation follow from it. Stress and
  * strain in Voigt order (xx yy zz yz xz xy), shear strains engineering (gamma = 2 epsilon).
@@ -15,6 +16,12 @@
  * the couple factor f declared: 1 as printed by Li & Wan, 2 de Borst, 4 the hole literature. Plane
  * stress replaces lambda by 2 lambda G/(lambda + 2G). The cubic model gives the plane moduli
  * themselves: its section's plane plays no part, and its axes are x and y.
+ *
+ * Three Cosserat models are made of the contacts of discs (docs/theory/cosserat.md). The section is
+ * one layer of discs: they are as thick as it is, and their stiffness (N/m) is that of the whole
+ * thickness, as in room dem. So D = NV k/thickness, and a body of any thickness answers with the
+ * same force. NV = N r^2/area, N contacts counted once, = z phi/(2 pi) with coordination number z
+ * and solid fraction phi. Lattice and average are plane moduli as the cubic model's are.
  */
 #ifndef CDEM_ELEMENTS_MATERIAL_H
 #define CDEM_ELEMENTS_MATERIAL_H
@@ -33,11 +40,14 @@ typedef struct {
 } cdem_section;
 
 typedef enum {
-  CDEM_ISOTROPIC,      /* young, poisson */
-  CDEM_ORTHOTROPIC,    /* e1 e2 e3 nu12 nu13 nu23 g12 g13 g23 */
-  CDEM_ANISOTROPIC,    /* c11 .. c66, upper triangle, Voigt order, Pa */
-  CDEM_COSSERAT,       /* young poisson cosserat_modulus characteristic_length couple_factor */
-  CDEM_COSSERAT_CUBIC, /* d11 d12 d1212 d1221 couple_modulus */
+  CDEM_ISOTROPIC,        /* young, poisson */
+  CDEM_ORTHOTROPIC,      /* e1 e2 e3 nu12 nu13 nu23 g12 g13 g23 */
+  CDEM_ANISOTROPIC,      /* c11 .. c66, upper triangle, Voigt order, Pa */
+  CDEM_COSSERAT,         /* young poisson cosserat_modulus characteristic_length couple_factor */
+  CDEM_COSSERAT_CUBIC,   /* d11 d12 d1212 d1221 couple_modulus */
+  CDEM_COSSERAT_LATTICE, /* normal_stiffness shear_stiffness rolling_stiffness radius */
+  CDEM_COSSERAT_AVERAGE, /* the same and contact_density */
+  CDEM_COSSERAT_PRINTED, /* the same and rolling_force_stiffness representative_length */
   CDEM_MATERIAL_MODEL_COUNT
 } cdem_material_model;
 
@@ -66,6 +76,7 @@ typedef struct {
   const char *name; /* "isotropic" */
   int keys;
   const cdem_material_key *key; /* [keys] */
+  bool isotropic;               /* the same in all directions of the plane or of space: no axes */
   const char *help;
 } cdem_material_model_info;
 
@@ -74,7 +85,7 @@ const cdem_material_model_info *cdem_material_model_get(cdem_material_model mode
 cdem_material_model cdem_material_model_find(const char *name);
 
 static inline bool cdem_material_is_cosserat(const cdem_material *material) {
-  return material->model == CDEM_COSSERAT || material->model == CDEM_COSSERAT_CUBIC;
+  return material->model >= CDEM_COSSERAT && material->model <= CDEM_COSSERAT_PRINTED;
 }
 
 /* The isotropic material most commands start from. Not checked here. */
@@ -83,6 +94,10 @@ cdem_material cdem_material_isotropic(double young, double poisson);
 /* Characteristic length of a Cosserat material: sqrt(couple modulus / shear modulus), m; 0 for
  * others. */
 double cdem_material_length(const cdem_material *material);
+
+/* Rotational inertia of a point of a Cosserat material per mass, where nothing else is given, m^2:
+ * r^2/2 of the discs it is made of, else the square of its length; 0 for others. */
+double cdem_material_micro_inertia(const cdem_material *material);
 
 /* Moduli (Pa; couple rows N): solid [6][6] in Voigt order, plane [3][3] (xx yy xy), plane Cosserat
  * [6][6] in the order above; row-major in d, *rows receives 6 or 3. `solid` true ignores section.

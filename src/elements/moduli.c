@@ -12,14 +12,6 @@ static const int voigt[V][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
 /* An eigenvalue below this part of the largest is rounding: such a matrix is not definite. */
 #define DEFINITE_BOUND 1e-14
 
-static double value(const cdem_material *material, const char *key) {
-  const cdem_material_model_info *info = cdem_material_model_get(material->model);
-  int k = 0;
-  while (strcmp(info->key[k].key, key) != 0)
-    k++;
-  return material->parameter[k];
-}
-
 /* Bounds of single keys: finite, and positive where the table says so. */
 static cdem_status check_keys(const cdem_material *material, cdem_fault *fault) {
   const cdem_material_model_info *info = cdem_material_model_get(material->model);
@@ -76,10 +68,14 @@ static void isotropic_stiffness(double young, double poisson, double c[V * V]) {
 
 static cdem_status orthotropic_stiffness(const cdem_material *material, double c[V * V],
                                          cdem_fault *fault) {
-  const double e[3] = {value(material, "e1"), value(material, "e2"), value(material, "e3")};
-  const double nu12 = value(material, "nu12"), nu13 = value(material, "nu13"),
-               nu23 = value(material, "nu23");
-  const double shear[3] = {value(material, "g23"), value(material, "g13"), value(material, "g12")};
+  const double e[3] = {cdem_material_value(material, "e1"), cdem_material_value(material, "e2"),
+                       cdem_material_value(material, "e3")};
+  const double nu12 = cdem_material_value(material, "nu12"),
+               nu13 = cdem_material_value(material, "nu13"),
+               nu23 = cdem_material_value(material, "nu23");
+  const double shear[3] = {cdem_material_value(material, "g23"),
+                           cdem_material_value(material, "g13"),
+                           cdem_material_value(material, "g12")};
   double compliance[V * V] = {0}, normal[9], inverse[9], least = 0.0, largest = 0.0;
   for (int i = 0; i < 3; i++) {
     normal[4 * i] = 1.0 / e[i];
@@ -180,8 +176,9 @@ static void rotate(const double r[9], double c[V * V]) {
 
 static cdem_status solid_moduli(const cdem_material *material, double c[V * V], cdem_fault *fault) {
   if (material->model == CDEM_ISOTROPIC) { /* the same in any axes */
-    CDEM_TRY(check_poisson(value(material, "poisson"), "a solid", 0.5, fault));
-    isotropic_stiffness(value(material, "young"), value(material, "poisson"), c);
+    CDEM_TRY(check_poisson(cdem_material_value(material, "poisson"), "a solid", 0.5, fault));
+    isotropic_stiffness(cdem_material_value(material, "young"),
+                        cdem_material_value(material, "poisson"), c);
     return CDEM_OK;
   }
   if (material->model == CDEM_ORTHOTROPIC)
@@ -219,10 +216,11 @@ static cdem_status plane_moduli(const cdem_material *material, cdem_plane plane,
   static const int p[3] = {0, 1, 5};
   double c[V * V];
   if (material->model == CDEM_ISOTROPIC)
-    CDEM_TRY(check_plane_poisson(value(material, "poisson"), plane, fault));
+    CDEM_TRY(check_plane_poisson(cdem_material_value(material, "poisson"), plane, fault));
   if (plane == CDEM_PLANE_STRESS && material->model == CDEM_ISOTROPIC) {
     /* written out, because it reaches beyond 1/2, where no solid is left to condense */
-    double young = value(material, "young"), poisson = value(material, "poisson");
+    double young = cdem_material_value(material, "young"),
+           poisson = cdem_material_value(material, "poisson");
     double factor = young / ((1.0 - poisson) * (1.0 + poisson));
     memset(d, 0, 9 * sizeof *d);
     d[0] = d[4] = factor;
@@ -238,40 +236,72 @@ static cdem_status plane_moduli(const cdem_material *material, cdem_plane plane,
   return CDEM_OK;
 }
 
-/* The five numbers D11 D12 D1212 D1221 Dm. */
-static cdem_status cosserat_numbers(const cdem_material *material, cdem_plane plane, double m[5],
-                                    cdem_fault *fault) {
-  if (material->model == CDEM_COSSERAT_CUBIC) {
-    memcpy(m, material->parameter, 5 * sizeof *m);
-    CDEM_REQUIRE(!material->rotated, fault, CDEM_INPUT,
-                 "axis1 and axis2 are not for cosserat-cubic: its axes are x and y");
-    CDEM_REQUIRE(fabs(m[1]) < m[0], fault, CDEM_INPUT,
-                 "d12 = %.10g Pa is out of range: a stable body needs -d11 < d12 < d11 = %.10g Pa",
-                 m[1], m[0]);
-    CDEM_REQUIRE(fabs(m[3]) < m[2], fault, CDEM_INPUT,
-                 "d1221 = %.10g Pa is out of range: a stable body needs -d1212 < d1221 < d1212 = "
-                 "%.10g Pa",
-                 m[3], m[2]);
-    return CDEM_OK;
-  }
-  double poisson = value(material, "poisson"), couple = value(material, "cosserat_modulus"),
-         length = value(material, "characteristic_length");
-  bool stress = plane == CDEM_PLANE_STRESS;
-  CDEM_TRY(check_plane_poisson(poisson, plane, fault));
-  double shear = 0.5 * value(material, "young") / (1.0 + poisson);
-  double lambda = 2.0 * shear * poisson / (stress ? 1.0 - poisson : 1.0 - 2.0 * poisson);
-  m[0] = lambda + 2.0 * shear;
-  m[1] = lambda;
-  m[2] = shear + couple;
-  m[3] = shear - couple;
-  m[4] = value(material, "couple_factor") * shear * length * length;
+static cdem_status cubic_numbers(const cdem_material *material, double m[5], cdem_fault *fault) {
+  memcpy(m, material->parameter, 5 * sizeof *m);
+  CDEM_REQUIRE(fabs(m[1]) < m[0], fault, CDEM_INPUT,
+               "d12 = %.10g Pa is out of range: a stable body needs -d11 < d12 < d11 = %.10g Pa",
+               m[1], m[0]);
+  CDEM_REQUIRE(fabs(m[3]) < m[2], fault, CDEM_INPUT,
+               "d1221 = %.10g Pa is out of range: a stable body needs -d1212 < d1221 < d1212 = "
+               "%.10g Pa",
+               m[3], m[2]);
   return CDEM_OK;
 }
 
-static cdem_status cosserat_moduli(const cdem_material *material, cdem_plane plane, double d[V * V],
-                                   cdem_fault *fault) {
+static cdem_status isotropic_cosserat_numbers(const cdem_material *material, cdem_plane plane,
+                                              double m[5], cdem_fault *fault) {
+  double poisson = cdem_material_value(material, "poisson"),
+         length = cdem_material_value(material, "characteristic_length");
+  bool stress = plane == CDEM_PLANE_STRESS;
+  CDEM_TRY(check_plane_poisson(poisson, plane, fault));
+  double shear = 0.5 * cdem_material_value(material, "young") / (1.0 + poisson);
+  double lambda = 2.0 * shear * poisson / (stress ? 1.0 - poisson : 1.0 - 2.0 * poisson);
+  double factor = cdem_material_value(material, "couple_factor");
+  cdem_isotropic_numbers(lambda, shear, cdem_material_value(material, "cosserat_modulus"),
+                         factor * shear * length * length, m);
+  return CDEM_OK;
+}
+
+/* Discs as thick as the section. The printed moduli have a lambda of space, the others one of the
+ * plane. */
+static cdem_status packing_numbers(const cdem_material *material, const cdem_section *section,
+                                   double m[5], cdem_fault *fault) {
+  double thickness = 1.0;
+  CDEM_TRY(cdem_formulation_thickness(CDEM_PLANE_COSSERAT, section, &thickness, fault));
+  if (material->model == CDEM_COSSERAT_PRINTED) {
+    double force = cdem_material_value(material, "rolling_force_stiffness");
+    CDEM_REQUIRE(force >= 0.0, fault, CDEM_INPUT,
+                 "rolling_force_stiffness = %.10g N/m is out of range: it must not be negative",
+                 force);
+    cdem_packing_constants c;
+    cdem_packing_printed(material, &c);
+    if (section->plane == CDEM_PLANE_STRESS)
+      c.lambda *= 2.0 * c.shear / (c.lambda + 2.0 * c.shear);
+    cdem_isotropic_numbers(c.lambda, c.shear, c.spin, c.shear * c.length_squared, m);
+  } else
+    cdem_packing_numbers(material, m);
+  for (int i = 0; i < 5; i++)
+    m[i] /= thickness;
+  return CDEM_OK;
+}
+
+/* The five numbers D11 D12 D1212 D1221 Dm. */
+static cdem_status cosserat_numbers(const cdem_material *material, const cdem_section *section,
+                                    double m[5], cdem_fault *fault) {
+  const cdem_material_model_info *info = cdem_material_model_get(material->model);
+  CDEM_REQUIRE(info->isotropic || !material->rotated, fault, CDEM_INPUT,
+               "axis1 and axis2 are not for %s: its axes are x and y", info->name);
+  if (material->model == CDEM_COSSERAT)
+    return isotropic_cosserat_numbers(material, section->plane, m, fault);
+  if (material->model == CDEM_COSSERAT_CUBIC)
+    return cubic_numbers(material, m, fault);
+  return packing_numbers(material, section, m, fault);
+}
+
+static cdem_status cosserat_moduli(const cdem_material *material, const cdem_section *section,
+                                   double d[V * V], cdem_fault *fault) {
   double m[5] = {0};
-  CDEM_TRY(cosserat_numbers(material, plane, m, fault));
+  CDEM_TRY(cosserat_numbers(material, section, m, fault));
   memset(d, 0, V * V * sizeof *d);
   for (int i = 0; i < 2; i++) {
     d[(V + 1) * i] = m[0];
@@ -302,7 +332,7 @@ static cdem_status moduli(const cdem_material *material, cdem_moduli_kind kind,
   CDEM_REQUIRE(section != NULL, fault, CDEM_USAGE,
                "a plane body needs a section: plane strain or plane stress, and a thickness");
   return kind == CDEM_MODULI_PLANE ? plane_moduli(material, section->plane, d, fault)
-                                   : cosserat_moduli(material, section->plane, d, fault);
+                                   : cosserat_moduli(material, section, d, fault);
 }
 
 cdem_status cdem_material_moduli(const cdem_material *material, cdem_moduli_kind kind,

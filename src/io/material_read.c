@@ -61,7 +61,7 @@ static void read_axes(const reading *r, const cdem_yaml_node *map, cdem_material
   const cdem_yaml_node *second = cdem_yaml_find(r->yaml, map, "axis2");
   if (first == NULL && second == NULL)
     return;
-  if (material->model == CDEM_ISOTROPIC || material->model == CDEM_COSSERAT) {
+  if (cdem_material_model_get(material->model)->isotropic) {
     cdem_yaml_error(r->yaml, first != NULL ? first : second,
                     "axes have no meaning for an isotropic material; leave them out");
     return;

@@ -215,9 +215,9 @@ static cdem_status material_numbers(cdem_run_body *setup, cdem_fault *fault) {
       CDEM_TRY(cdem_run_density(setup, m, gravity ? "gravity" : "a dynamic run", fault));
     /* Without inertia or weight the density has no part in the result. */
     setup->density[m] = material->density > 0.0 ? material->density : 1.0;
-    double length = cdem_material_length(&material->material);
-    setup->micro_inertia[m] =
-        isnan(material->micro_inertia) ? length * length : material->micro_inertia;
+    setup->micro_inertia[m] = isnan(material->micro_inertia)
+                                  ? cdem_material_micro_inertia(&material->material)
+                                  : material->micro_inertia;
     CDEM_TRY(moduli(setup, &setup->model.materials_of[m], &setup->moduli[m], fault));
   }
   return CDEM_OK;

@@ -6,20 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double half_pi = 1.57079632679489661923, outer = 4.0, tension = 1e6;
-
-/* 2 n cells around the quarter, 2 n rings that grow with their radius. */
-static cdem_status ring(int n, cdem_mesh *mesh, cdem_fault *fault) {
-  cdem_mesh_grid_options grid = {
-      .shape = CDEM_SHAPE_QUAD4, .count = {2 * n, 2 * n, 0}, .size = {1.0, 1.0, 0.0}};
-  CDEM_TRY(cdem_mesh_grid(&grid, mesh, fault));
-  for (int32_t i = 0; i < mesh->nodes; i++) { /* x: radius, y: angle */
-    double *x = mesh->xyz + 3 * i, r = pow(outer, x[0]), angle = half_pi * x[1];
-    x[0] = r * cos(angle);
-    x[1] = r * sin(angle);
-  }
-  return CDEM_OK;
-}
+static const double outer = 4.0, tension = 1e6;
 
 /* Traction on the circle at angle t: rows of the stress in polar axes turned to x and y. */
 static void traction(double angle, double t[2]) {
@@ -62,25 +49,15 @@ static cdem_status load_circle(cdem_world *world, cdem_fault *fault) {
 static cdem_status solve(cdem_world *world, int n, double *factor, cdem_fault *fault) {
   const cdem_world_options options = {
       .young = 30e9, .poisson = 0.3, .density = 2700.0, .plane_stress = true};
-  CDEM_TRY(ring(n, &world->mesh, fault));
+  CDEM_TRY(cdem_world_quarter_ring(world, n, outer, fault));
   CDEM_TRY(cdem_world_build(world, &options, fault));
   CDEM_TRY(cdem_world_support(world, "y0", 1, false, 0.0, 0.0, fault));
   CDEM_TRY(cdem_world_support(world, "y1", 0, false, 0.0, 0.0, fault));
   CDEM_TRY(load_circle(world, fault));
   CDEM_TRY(cdem_world_start(world, fault));
   CDEM_TRY(cdem_solver_static(&world->solver, 0.0, fault));
-  double *stress, best = 1e300;
-  CDEM_NEW(stress, (int64_t)world->body.nodes * 6, fault);
-  cdem_body_node_stress(&world->body, world->solver.u, stress);
-  for (int32_t i = 0; i < world->body.nodes; i++) { /* the crown: (0, 1) */
-    const double *x = world->blocks.mesh.xyz + 3 * i;
-    double distance = hypot(x[0], x[1] - 1.0);
-    if (distance < best) {
-      best = distance;
-      *factor = stress[6 * i] / tension;
-    }
-  }
-  free(stress);
+  CDEM_TRY(cdem_world_crown_stress(world, factor, fault));
+  *factor /= tension;
   return CDEM_OK;
 }
 

@@ -60,6 +60,19 @@ cdem_status cdem_world_add_box(cdem_world *world, const char *name, const int32_
   return status;
 }
 
+cdem_status cdem_world_quarter_ring(cdem_world *world, int n, double outer, cdem_fault *fault) {
+  const double half_pi = 1.57079632679489661923;
+  cdem_mesh *mesh = &world->mesh;
+  CDEM_TRY(cdem_world_grid(world, CDEM_SHAPE_QUAD4, (int32_t[]){2 * n, 2 * n, 0},
+                           (double[]){1.0, 1.0, 0.0}, fault));
+  for (int32_t i = 0; i < mesh->nodes; i++) { /* x: radius, y: angle */
+    double *x = mesh->xyz + 3 * i, r = pow(outer, x[0]), angle = half_pi * x[1];
+    x[0] = r * cos(angle);
+    x[1] = r * sin(angle);
+  }
+  return CDEM_OK;
+}
+
 /* ---- body ---- */
 
 static cdem_status build_model(cdem_world *world, cdem_fault *fault) {
@@ -70,7 +83,8 @@ static cdem_status build_model(cdem_world *world, cdem_fault *fault) {
       .material = &world->material,
       .section = {.plane = o->plane_stress ? CDEM_PLANE_STRESS : CDEM_PLANE_STRAIN,
                   .thickness = 1.0}};
-  world->material = cdem_material_isotropic(o->young, o->poisson);
+  world->material =
+      o->material != NULL ? *o->material : cdem_material_isotropic(o->young, o->poisson);
   CDEM_TRY(cdem_model_init(&options, &world->model, fault));
   cdem_body_options body = {.density = &world->options.density, .threads = 1};
   return cdem_body_init(&world->model, &body, &world->body, fault);
@@ -109,7 +123,7 @@ cdem_status cdem_world_build(cdem_world *world, const cdem_world_options *option
                                     .threads = 1};
     CDEM_TRY(cdem_contact_init(&contact, &world->contact, fault));
   }
-  CDEM_NEW(world->velocity, (int64_t)world->body.nodes * dofs, fault);
+  CDEM_NEW(world->velocity, (int64_t)world->body.nodes * world->body.dofs, fault);
   return CDEM_OK;
 }
 
@@ -207,6 +221,22 @@ cdem_status cdem_world_mean(const cdem_world *world, const char *group, const do
   }
   free(node);
   *mean = sum / mass;
+  return CDEM_OK;
+}
+
+cdem_status cdem_world_crown_stress(const cdem_world *world, double *stress, cdem_fault *fault) {
+  double *all, best = 1e300;
+  CDEM_NEW(all, (int64_t)world->body.nodes * 6, fault);
+  cdem_body_node_stress(&world->body, world->solver.u, all);
+  for (int32_t i = 0; i < world->body.nodes; i++) {
+    const double *x = world->blocks.mesh.xyz + 3 * i;
+    double distance = hypot(x[0], x[1] - 1.0);
+    if (distance < best) {
+      best = distance;
+      *stress = all[6 * i];
+    }
+  }
+  free(all);
   return CDEM_OK;
 }
 

@@ -100,7 +100,7 @@ static void every_rule_gives_the_reference_blocks(void **state) {
 static void lanes_may_differ_in_material(void **state) {
   (void)state;
   FOR_EACH_ELEMENT(element) {
-    cdem_material mixed[4], isotropic[3];
+    cdem_material mixed[SPECIMENS], isotropic[3];
     int first = first_specimen(element->formulation), count = 0;
     for (int which = first; which < last_specimen(element->formulation); which++)
       mixed[count++] = specimen(which);

@@ -22,7 +22,10 @@ static inline void rotation(int dimension, double angle, double r[9]) {
       r[3 * i + j] = (i == j) * c + (1 - c) * n[i] * n[j] + s * cross[3 * i + j];
 }
 
-/* Six materials: four classical ones (the last two in axes of their own), two of Cosserat. */
+/* Nine materials: four classical ones (the last two in axes of their own), five of Cosserat, of
+ * which the last three are made of contacts. */
+enum { FIRST_COSSERAT = 4, FIRST_PACKING = 6, SPECIMENS = 9 };
+
 static inline cdem_material specimen(int which) {
   cdem_material m = cdem_material_isotropic(30e9, 0.3);
   if (which == 1 || which == 2) {
@@ -49,6 +52,12 @@ static inline cdem_material specimen(int which) {
     m.model = CDEM_COSSERAT_CUBIC;
     memcpy(m.parameter, p, sizeof p);
   }
+  if (which >= FIRST_PACKING) {
+    /* Li & Wan 2010, table 1, with a rolling stiffness that weighs beside kn r^2 */
+    const double p[] = {2.5e8, 5e7, 2e5, 0.05, 0.6, 1e6, 0.04};
+    m.model = (cdem_material_model)(CDEM_COSSERAT_LATTICE + which - FIRST_PACKING);
+    memcpy(m.parameter, p, sizeof p);
+  }
   const double axis1[3] = {0.6, 0.8, 0.1}, axis2[3] = {-1, 0.7, 2};
   memcpy(m.axis1, axis1, sizeof axis1);
   memcpy(m.axis2, axis2, sizeof axis2);
@@ -57,10 +66,10 @@ static inline cdem_material specimen(int which) {
 
 /* The materials first .. last - 1 that fit a formulation. */
 static inline int first_specimen(cdem_formulation formulation) {
-  return formulation == CDEM_PLANE_COSSERAT ? 4 : 0;
+  return formulation == CDEM_PLANE_COSSERAT ? FIRST_COSSERAT : 0;
 }
 static inline int last_specimen(cdem_formulation formulation) {
-  return formulation == CDEM_PLANE_COSSERAT ? 6 : 4;
+  return formulation == CDEM_PLANE_COSSERAT ? SPECIMENS : FIRST_COSSERAT;
 }
 
 /* The reference shape, stretched and sheared, each node moved by up to `amplitude`. */

@@ -154,7 +154,7 @@ static void turned(const cdem_element *element, const cdem_material *material,
   int dimension = cdem_element_dimension(element), dofs = k->dofs;
   cdem_material m = *material;
   double r[9], moved[MAX_NODES][3] = {{0}}, full[9];
-  if (m.model == CDEM_COSSERAT_CUBIC)
+  if (cdem_material_is_cosserat(&m) && !cdem_material_model_get(m.model)->isotropic)
     return; /* its axes are x and y */
   rotation(dimension, 0.7, r);
   if (!m.rotated) {
@@ -206,6 +206,11 @@ static void scaled(const cdem_element *element, const cdem_material *material,
     m.parameter[3] *= factor;
   if (m.model == CDEM_COSSERAT_CUBIC)
     m.parameter[4] *= factor * factor;
+  if (m.model >= CDEM_COSSERAT_LATTICE) { /* moments, radius, L; the density is a number */
+    m.parameter[2] *= factor * factor;
+    m.parameter[3] *= factor;
+    m.parameter[6] *= factor;
+  }
   compute(element, &m, section, larger, &other);
   for (int i = 0; i < k->size; i++)
     for (int j = 0; j < k->size; j++) {

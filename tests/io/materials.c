@@ -160,9 +160,10 @@ static void examples_can_be_read(void **state) {
                   {"shale", CDEM_ORTHOTROPIC, 1},
                   {"quartz", CDEM_ANISOTROPIC, 1},
                   {"cosserat-sand", CDEM_COSSERAT, 1},
+                  {"disc-lattice", CDEM_COSSERAT_LATTICE, 1},
                   {"two-layers", CDEM_ISOTROPIC, 2}};
   const cdem_section section = {CDEM_PLANE_STRAIN, 1.0};
-  for (int e = 0; e < 5; e++) {
+  for (int e = 0; e < 6; e++) {
     cdem_fault fault = {0};
     cdem_material_file file;
     char path[512];
