@@ -172,7 +172,8 @@ static const cdem_case_key grains[] = {
     {GRAINS(pictures), .kind = CDEM_KEY_TEXTS, .otherwise = "displacement, chains, velocities",
      .help =
          "Pictures of the last state: grains coloured by radius, speed, displacement, rotation, "
-         "pressure, effective_stress, volumetric_strain, effective_strain (since the start) or contacts; force "
+         "pressure, effective_stress, volumetric_strain, effective_strain (since the start) or "
+         "contacts; force "
          "chains; velocities as arrows.",
      .example = "[effective_strain, chains]"},
 };

@@ -111,7 +111,10 @@ static void examples_can_be_read(void **state) {
                 {"tolerance", "analysis: relaxation\n"},
                 {"most_steps", "analysis: relaxation\n"},
                 {"stop_when", "stop_below: 0.5\n"},
-                {"stop_below", "stop_when: a\n"}};
+                {"stop_below", "stop_when: a\n"},
+                {"coupling", "grains: {dimension: 2, packing: {kind: square, high: [1, 1], radius: "
+                             "0.1}, materials: {glass: {density: 1}}}\n"
+                             "contacts: [{friction: 0}]\n"}};
   for (int k = 0; k < root->keys; k++) {
     const cdem_case_key *key = &root->key[k];
     char text[2000] = "";

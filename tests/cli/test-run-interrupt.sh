@@ -69,7 +69,7 @@ same broken
 # checkpoint, and a frame or a row may be half written
 "$cdem" run -q --no-figures case.yaml -o killed &
 process=$!
-for rows in 40 150 310 390; do
+for rows in 40 150 260 340; do
   wait_for_rows killed $rows $process
   kill -9 $process
   wait $process 2>/dev/null || true
