@@ -189,7 +189,8 @@ static void print_summary(const cdem_run_summary *r, const char *folder) {
   print_sizes(r);
   if (r->steps > 0) {
     bool grains = r->grains > 0;
-    double work = (double)r->steps * (double)(grains ? r->grains : r->elements);
+    double cycles = grains && r->cycles > 0 ? r->cycles : 1.0;
+    double work = (double)r->steps * cycles * (double)(grains ? r->grains : r->elements);
     printf("  steps         %lld of %.4g s (limited by %s), to t = %.6g s\n", (long long)r->steps,
            r->step, r->limiter, r->time);
     printf("  wall time     %.3g s, %.3g %s-steps/s\n", r->wall,

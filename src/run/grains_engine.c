@@ -136,6 +136,7 @@ static void sizes(const cdem_run_setup *run, cdem_run_summary *summary) {
 
 static void put_sizes(cdem_json *json, const cdem_run_summary *summary) {
   double work = (double)summary->grains * (double)summary->steps;
+  work *= summary->cycles > 0 ? summary->cycles : 1; /* of a coupled run */
   cdem_json_integer(json, "grains", summary->grains);
   cdem_json_real(json, "solid", summary->solid);
   cdem_json_integer(json, "contacts", summary->contacts);
