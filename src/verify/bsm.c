@@ -5,6 +5,8 @@
 #include "verify/verify.h"
 
 #define THEORY "docs/theory/cosserat.md, "
+#define SOURCE "Li & Wan 2010, "
+#define BSM    "docs/theory/bsm.md, "
 #define PATCH  "Providas & Kattis 2002"
 #define HOLE   "Kaloni & Ariman 1967, Eringen 1968"
 
@@ -58,11 +60,32 @@ static const cdem_verification checks[] = {
      0.006, MEASURE(hole), .parameter = 20, .slow = true},
     {"hole in a Cosserat plate, N = 0.9, finer: factor over the closed form", THEORY "eq. (23)", 1,
      0.003, MEASURE(hole), .parameter = 23, .slow = true},
+    /* The projector. */
+    {"foundation, r = 0.05 m: grains in the fine region", SOURCE "section 3", 2426, 0,
+     MEASURE(counts), .parameter = 0},
+    {"foundation, r = 0.03 m: grains in the fine region", SOURCE "section 3", 6765, 0,
+     MEASURE(counts), .parameter = 1},
+    {"projector: P P - P", SOURCE "eq. (4)", 0, 1e-12, MEASURE(identity), .parameter = 0},
+    {"projector: Q N", SOURCE "eq. (7)", 0, 1e-12, MEASURE(identity), .parameter = 1},
+    {"projector: N^T Mp Q", SOURCE "eq. (12)", 0, 1e-12, MEASURE(identity), .parameter = 2},
+    {"projector: split of the kinetic energy", SOURCE "eq. (13)", 0, 1e-12, MEASURE(identity),
+     .parameter = 3},
+    {"projector: linear fields", SOURCE "eq. (3)", 0, 1e-12, MEASURE(identity), .parameter = 4},
+    /* Reactions act where interface grains are, half a spacing beyond the edge: about r/(sqrt(2) h)
+     * is left over. */
+    {"homogeneous strain, form interface, h = 1 m: residual at the edge", BSM "section 4", 0, 0.05,
+     MEASURE(patch), .parameter = 0},
+    {"homogeneous strain, form interface, h = 0.5 m: residual at the edge", BSM "section 4", 0,
+     0.09, MEASURE(patch), .parameter = 1},
+    {"homogeneous strain, form virtual work, h = 1 m: residual at the edge", BSM "section 4", 0,
+     0.05, MEASURE(patch), .parameter = 10},
+    {"homogeneous strain, form virtual work, h = 0.5 m: residual at the edge", BSM "section 4", 0,
+     0.09, MEASURE(patch), .parameter = 11},
 };
 
 const cdem_verify_group cdem_verify_bsm = {
     .name = "bsm",
-    .summary = "grains inside a continuum: the Cosserat medium around them",
+    .summary = "grains inside a continuum: the Cosserat medium around them, projector, coupling",
     .checks = sizeof checks / sizeof checks[0],
     .check = checks,
 };

@@ -12,7 +12,12 @@
   X(hole_closed)    /* R/l = 1.063, nu = 0.3; 0..3: N = 0.25, 0.5, 0.75, 0.9; 4: N = 1e-3 */       \
   X(hole)           /* the same by the static solver: 0..3 factor over the closed one, 20 + the    \
                      same: on a mesh twice as fine, 10 + the same: order of its error, 30 + the    \
-                     same: order of the rotations' error */
+                     same: order of the rotations' error */                                        \
+  X(counts)         /* fine grains of the foundation: 0 r = 0.05 m, 1 r = 0.03 m */                \
+  X(identity) /* of the projector, masses all different, relative: 0 PP - P, 1 QN, 2 N^T Mp Q, 3   \
+                 split of the kinetic energy, 4 linear fields */                                   \
+  X(patch) /* 10 form (0 interface, 1 virtual work) + size (0 h = 1 m, 1 h = 0.5 m): largest force \
+              left at the edge of the fine region by traction times h, four strains */
 
 #define X(name)                                                                                    \
   cdem_status cdem_bsm_measure_##name(int parameter, double *value, cdem_fault *fault);
