@@ -6,6 +6,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <ftw.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -264,4 +265,27 @@ cdem_status cdem_read_text(const char *path, char **text, cdem_fault *fault) {
   else
     free(read);
   return status;
+}
+
+/* ---- scratch ---- */
+
+static const char scratch_prefix[] = "/tmp/cdem-scratch-";
+
+cdem_status cdem_make_scratch(char path[64], cdem_fault *fault) {
+  snprintf(path, 64, "%sXXXXXX", scratch_prefix);
+  CDEM_REQUIRE(mkdtemp(path) != NULL, fault, CDEM_FILE, "cannot make a folder in /tmp: %s",
+               strerror(errno));
+  return CDEM_OK;
+}
+
+static int remove_one(const char *path, const struct stat *about, int type, struct FTW *where) {
+  (void)about;
+  (void)type;
+  (void)where;
+  return remove(path);
+}
+
+void cdem_remove_scratch(const char *path) {
+  if (strncmp(path, scratch_prefix, sizeof scratch_prefix - 1) == 0)
+    nftw(path, remove_one, 16, FTW_DEPTH | FTW_PHYS);
 }

@@ -76,6 +76,10 @@ cdem_status cdem_clear_figures(const char *folder, cdem_fault *fault);
 /* Removes what processes that were killed have left of unfinished files in a folder of a run and in
  * the folders right below it; for who holds the lock. */
 cdem_status cdem_clear_parts(const char *folder, cdem_fault *fault);
+/* Makes a new folder for files that nobody keeps; path receives its name. */
+cdem_status cdem_make_scratch(char path[64], cdem_fault *fault);
+/* Removes it with all that is in it; any other folder is left alone. */
+void cdem_remove_scratch(const char *path);
 /* Makes a folder and those above it; no failure when it is there. */
 cdem_status cdem_make_folder(const char *path, cdem_fault *fault);
 /* Takes FOLDER/.lock (flock; gone with the process) in a folder that is there. CDEM_INPUT "is in

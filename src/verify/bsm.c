@@ -7,6 +7,7 @@
 #define THEORY "docs/theory/cosserat.md, "
 #define SOURCE "Li & Wan 2010, "
 #define BSM    "docs/theory/bsm.md, "
+#define FULL   "grains everywhere, the same run"
 #define PATCH  "Providas & Kattis 2002"
 #define HOLE   "Kaloni & Ariman 1967, Eringen 1968"
 
@@ -81,6 +82,60 @@ static const cdem_verification checks[] = {
      0.05, MEASURE(patch), .parameter = 10},
     {"homogeneous strain, form virtual work, h = 0.5 m: residual at the edge", BSM "section 4", 0,
      0.09, MEASURE(patch), .parameter = 11},
+    /* Whole runs of the foundation. */
+    {"bonded grains, h = 7/6 m: load against grains everywhere", FULL, 0, 0.02, MEASURE(bonded),
+     .parameter = 0, .slow = true},
+    {"bonded grains, h = 7/12 m: load against grains everywhere", FULL, 0, 0.005, MEASURE(bonded),
+     .parameter = 1, .slow = true},
+    {"bonded grains: error over that of frozen surroundings", FULL, 0, 0.2, MEASURE(bonded),
+     .parameter = 2, .slow = true},
+    {"bonded grains: energy book of both", BSM "section 5", 0, 1e-3, MEASURE(bonded),
+     .parameter = 3, .slow = true},
+    {"bonded grains without damping: load against grains everywhere", FULL, 0, 0.02,
+     MEASURE(undamped), .parameter = 0, .slow = true},
+    {"bonded grains without damping: coarse motion, last over early", BSM "section 5", 0, 1,
+     MEASURE(undamped), .parameter = 1, .slow = true},
+    {"foundation A, 500/s: load", FULL, 0, 0.03, MEASURE(foundation), .parameter = 500,
+     .slow = true},
+    {"foundation A, 500/s: peak", FULL, 0, 0.02, MEASURE(foundation), .parameter = 1500,
+     .slow = true},
+    {"foundation A, 500/s: displacement at the peak, m", FULL, 0, 2e-3, MEASURE(foundation),
+     .parameter = 2500, .slow = true},
+    {"foundation A, 500/s: largest effective strain", FULL, 0, 0.05, MEASURE(foundation),
+     .parameter = 3500, .slow = true},
+    {"foundation A, 500/s: least volumetric strain", FULL, 0, 0.15, MEASURE(foundation),
+     .parameter = 4500, .slow = true},
+    {"foundation A, 700/s: load", FULL, 0, 0.02, MEASURE(foundation), .parameter = 700,
+     .slow = true},
+    {"foundation A, 700/s: peak", FULL, 0, 0.01, MEASURE(foundation), .parameter = 1700,
+     .slow = true},
+    {"foundation A, 700/s: largest effective strain", FULL, 0, 0.05, MEASURE(foundation),
+     .parameter = 3700, .slow = true},
+    {"foundation A, 700/s: least volumetric strain", FULL, 0, 0.05, MEASURE(foundation),
+     .parameter = 4700, .slow = true},
+    {"foundation A, 700/s: least volumetric stress", FULL, 0, 0.05, MEASURE(foundation),
+     .parameter = 5700, .slow = true},
+    {"foundation A, 700/s: largest effective stress", FULL, 0, 0.05, MEASURE(foundation),
+     .parameter = 6700, .slow = true},
+    {"foundation A, 900/s: load", FULL, 0, 0.02, MEASURE(foundation), .parameter = 900,
+     .slow = true},
+    {"foundation A, 900/s: peak", FULL, 0, 0.01, MEASURE(foundation), .parameter = 1900,
+     .slow = true},
+    {"foundation A, 900/s: largest effective strain", FULL, 0, 0.05, MEASURE(foundation),
+     .parameter = 3900, .slow = true},
+    {"foundation A, 900/s: least volumetric strain", FULL, 0, 0.05, MEASURE(foundation),
+     .parameter = 4900, .slow = true},
+    {"foundation A, 900/s: least volumetric stress", FULL, 0, 0.05, MEASURE(foundation),
+     .parameter = 5900, .slow = true},
+    {"foundation A, 900/s: largest effective stress", FULL, 0, 0.05, MEASURE(foundation),
+     .parameter = 6900, .slow = true},
+    /* The bounds are one-sided: below 0.7, above 0.97. */
+    {"foundation A softens: load at 60 mm over its peak", SOURCE "figure 3", 0, 0.7,
+     MEASURE(softening), .parameter = 0, .slow = true},
+    {"foundation B softens: load at 60 mm over its peak", SOURCE "figure 3", 0, 0.7,
+     MEASURE(softening), .parameter = 1, .slow = true},
+    {"foundation C does not soften: load at 60 mm over its peak", SOURCE "figure 3", 1, 0.03,
+     MEASURE(softening), .parameter = 2, .slow = true},
 };
 
 const cdem_verify_group cdem_verify_bsm = {
