@@ -2,75 +2,20 @@
 
 #include "base/mat3.h"
 #include "base/memory.h"
+#include "bsm/face.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A face as a frame: origin, unit tangents, outward normal, size. */
-typedef struct {
-  int dim, corners;
-  double x[4][3], tangent[3], normal[3], length; /* length: 2-D */
-} frame;
-
-static void frame_of(const cdem_mesh *mesh, const cdem_bsm_face *face, frame *f) {
-  double e[3], g[3];
-  f->corners = face->corners;
-  f->dim = face->corners == 2 ? 2 : 3;
-  for (int i = 0; i < face->corners; i++)
-    memcpy(f->x[i], mesh->xyz + 3 * (int64_t)face->node[i], sizeof f->x[i]);
-  for (int c = 0; c < 3; c++) {
-    e[c] = f->x[1][c] - f->x[0][c];
-    g[c] = f->x[f->corners - 1][c] - f->x[0][c];
-  }
-  f->length = cdem_norm3(e);
-  for (int c = 0; c < 3; c++)
-    f->tangent[c] = e[c] / f->length;
-  if (f->dim == 2) { /* interior on the left: outward is to the right */
-    f->normal[0] = f->tangent[1];
-    f->normal[1] = -f->tangent[0];
-    f->normal[2] = 0.0;
-    return;
-  }
-  cdem_cross3(e, g, f->normal);
-  double size = cdem_norm3(f->normal);
-  for (int c = 0; c < 3; c++)
-    f->normal[c] /= size;
-}
-
-/* Is the foot of a point on the face, or beside it by less than `margin`? */
-static bool on_face(const frame *f, const double x[3], double margin) {
-  double way[3], foot[3], above;
-  for (int c = 0; c < 3; c++)
-    way[c] = x[c] - f->x[0][c];
-  if (f->dim == 2) {
-    double s = cdem_dot3(way, f->tangent);
-    return s >= -margin && s <= f->length + margin;
-  }
-  above = cdem_dot3(way, f->normal);
-  for (int c = 0; c < 3; c++)
-    foot[c] = x[c] - above * f->normal[c];
-  for (int i = 0; i < f->corners; i++) {
-    double edge[3], out[3], from[3];
-    for (int c = 0; c < 3; c++) {
-      edge[c] = f->x[(i + 1) % f->corners][c] - f->x[i][c];
-      from[c] = foot[c] - f->x[i][c];
-    }
-    cdem_cross3(edge, f->normal, out);
-    if (cdem_dot3(out, from) > margin * cdem_norm3(out))
-      return false;
-  }
-  return true;
-}
-
-static bool touches(const frame *f, const cdem_grains *grains, int64_t i, double reach,
+static bool touches(const cdem_bsm_frame *f, const cdem_grains *grains, int64_t i, double reach,
                     double margin) {
   const double *x = grains->xyz + 3 * i;
   double way[3];
   for (int c = 0; c < 3; c++)
     way[c] = x[c] - f->x[0][c];
   double depth = -cdem_dot3(way, f->normal), radius = grains->radius[i];
-  return depth >= -radius && depth <= radius + reach && on_face(f, x, margin * radius);
+  return depth >= -radius && depth <= radius + reach && cdem_bsm_on_face(f, x, margin * radius);
 }
 
 static double largest_radius(const cdem_grains *grains) {
@@ -84,8 +29,8 @@ void cdem_bsm_touching(const cdem_mesh *mesh, int64_t faces, const cdem_bsm_face
                        const cdem_grains *grains, double gap, bool *touch) {
   double reach = gap * largest_radius(grains);
   for (int64_t k = 0; k < faces; k++) {
-    frame f;
-    frame_of(mesh, &face[k], &f);
+    cdem_bsm_frame f;
+    cdem_bsm_frame_of(mesh, face[k].corners, face[k].node, &f);
     for (int64_t i = 0; i < grains->grains; i++)
       touch[i] = touch[i] || touches(&f, grains, i, reach, 1.0);
   }
@@ -109,7 +54,7 @@ typedef struct {
   double thickness, *area, *normal;
 } sums;
 
-static void add(const sums *to, const frame *f, int64_t grain, double area) {
+static void add(const sums *to, const cdem_bsm_frame *f, int64_t grain, double area) {
   if (to->area != NULL)
     to->area[grain] += area;
   for (int c = 0; to->normal != NULL && c < 3; c++)
@@ -118,7 +63,7 @@ static void add(const sums *to, const frame *f, int64_t grain, double area) {
 
 /* Hats between the stops, constant beyond the first and the last: over the piece from p to q their
  * mean is their value in its middle. */
-static void hats(const frame *f, int64_t count, const stop *at, const sums *to) {
+static void hats(const cdem_bsm_frame *f, int64_t count, const stop *at, const sums *to) {
   double from = 0.0;
   for (int64_t i = 0; i <= count && from < f->length; i++) {
     double end = i < count ? fmin(fmax(at[i].s, 0.0), f->length) : f->length;
@@ -138,7 +83,7 @@ static void hats(const frame *f, int64_t count, const stop *at, const sums *to) 
 
 /* Shape functions of the corners at a place of the unit square or triangle, and the area element.
  */
-static double place_on(const frame *f, double u, double v, double x[3]) {
+static double place_on(const cdem_bsm_frame *f, double u, double v, double x[3]) {
   double n[4], du[4], dv[4], a[3] = {0}, b[3] = {0}, cross[3];
   if (f->corners == 3) {
     const double n3[3] = {1.0 - u - v, u, v}, u3[3] = {-1, 1, 0}, v3[3] = {-1, 0, 1};
@@ -163,8 +108,8 @@ static double place_on(const frame *f, double u, double v, double x[3]) {
   return cdem_norm3(cross);
 }
 
-static int64_t nearest(const frame *f, const cdem_grains *grains, int64_t count, const stop *at,
-                       const double x[3]) {
+static int64_t nearest(const cdem_bsm_frame *f, const cdem_grains *grains, int64_t count,
+                       const stop *at, const double x[3]) {
   double least = INFINITY;
   int64_t best = 0;
   for (int64_t i = 0; i < count; i++) {
@@ -181,8 +126,8 @@ static int64_t nearest(const frame *f, const cdem_grains *grains, int64_t count,
   return best;
 }
 
-static void cells_of(const frame *f, const cdem_grains *grains, int64_t count, const stop *at,
-                     const sums *to) {
+static void cells_of(const cdem_bsm_frame *f, const cdem_grains *grains, int64_t count,
+                     const stop *at, const sums *to) {
   double least = INFINITY;
   for (int64_t i = 0; i < count; i++)
     least = fmin(least, grains->radius[at[i].grain]);
@@ -199,8 +144,8 @@ static void cells_of(const frame *f, const cdem_grains *grains, int64_t count, c
     }
 }
 
-static cdem_status one_face(const frame *f, const cdem_grains *grains, double reach, stop *at,
-                            const sums *to, cdem_fault *fault) {
+static cdem_status one_face(const cdem_bsm_frame *f, const cdem_grains *grains, double reach,
+                            stop *at, const sums *to, cdem_fault *fault) {
   int64_t count = 0;
   /* Hats reach over the corners of a face to the next grain beyond it. */
   for (int64_t i = 0; i < grains->grains; i++)
@@ -231,8 +176,8 @@ cdem_status cdem_bsm_tributary(const cdem_mesh *mesh, int64_t faces, const cdem_
   stop *at;
   CDEM_NEW(at, grains->grains, fault);
   for (int64_t k = 0; k < faces && status == CDEM_OK; k++) {
-    frame f;
-    frame_of(mesh, &face[k], &f);
+    cdem_bsm_frame f;
+    cdem_bsm_frame_of(mesh, face[k].corners, face[k].node, &f);
     status = one_face(&f, grains, reach, at, &to, fault);
   }
   free(at);
