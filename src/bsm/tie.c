@@ -113,5 +113,9 @@ double cdem_tie_frequency2(const cdem_tie *tie, const double *stiffness, const d
       most[1] = fmax(most[1], row[2 * n + 1] / turns);
   }
   free(row);
-  return most[0] + most[1];
+  if (rotates(tie))
+    return most[0] + most[1];
+  /* v and w of a grain come from the same nodes, and one spring may resist both. */
+  double root = sqrt(most[0]) + sqrt(most[1]);
+  return root * root;
 }
