@@ -54,11 +54,10 @@ typedef struct {
   double thickness, *area, *normal;
 } sums;
 
-static void add(const sums *to, const cdem_bsm_frame *f, int64_t grain, double area) {
-  if (to->area != NULL)
-    to->area[grain] += area;
-  for (int c = 0; to->normal != NULL && c < 3; c++)
-    to->normal[3 * grain + c] += area * f->normal[c];
+static void add(const sums *to, const double normal[3], int64_t grain, double area) {
+  to->area[grain] += area;
+  for (int c = 0; c < 3; c++)
+    to->normal[3 * grain + c] += area * normal[c];
 }
 
 /* Hats between the stops, constant beyond the first and the last: over the piece from p to q their
@@ -71,20 +70,20 @@ static void hats(const cdem_bsm_frame *f, int64_t count, const stop *at, const s
     if (end <= from)
       continue;
     if (i == 0 || i == count) {
-      add(to, f, at[i == 0 ? 0 : count - 1].grain, area);
+      add(to, f->normal, at[i == 0 ? 0 : count - 1].grain, area);
     } else {
       double t = (middle - at[i - 1].s) / (at[i].s - at[i - 1].s);
-      add(to, f, at[i - 1].grain, (1.0 - t) * area);
-      add(to, f, at[i].grain, t * area);
+      add(to, f->normal, at[i - 1].grain, (1.0 - t) * area);
+      add(to, f->normal, at[i].grain, t * area);
     }
     from = end;
   }
 }
 
-/* Shape functions of the corners at a place of the unit square or triangle, and the area element.
- */
-static double place_on(const cdem_bsm_frame *f, double u, double v, double x[3]) {
-  double n[4], du[4], dv[4], a[3] = {0}, b[3] = {0}, cross[3];
+/* Place at u, v of the unit square or triangle, and the area vector there: of a quadrilateral that
+ * is not flat it turns. Linear in u and v each, so that sums over middles of parts are exact. */
+static void place_on(const cdem_bsm_frame *f, double u, double v, double x[3], double area[3]) {
+  double n[4], du[4], dv[4], a[3] = {0}, b[3] = {0};
   if (f->corners == 3) {
     const double n3[3] = {1.0 - u - v, u, v}, u3[3] = {-1, 1, 0}, v3[3] = {-1, 0, 1};
     memcpy(n, n3, sizeof n3);
@@ -104,8 +103,7 @@ static double place_on(const cdem_bsm_frame *f, double u, double v, double x[3])
       a[c] += du[i] * f->x[i][c];
       b[c] += dv[i] * f->x[i][c];
     }
-  cdem_cross3(a, b, cross);
-  return cdem_norm3(cross);
+  cdem_cross3(a, b, area);
 }
 
 static int64_t nearest(const cdem_bsm_frame *f, const cdem_grains *grains, int64_t count,
@@ -131,22 +129,33 @@ static void cells_of(const cdem_bsm_frame *f, const cdem_grains *grains, int64_t
   double least = INFINITY;
   for (int64_t i = 0; i < count; i++)
     least = fmin(least, grains->radius[at[i].grain]);
-  double wanted = ceil(4.0 * f->length / least);
+  double longest = 0.0; /* distances of corners */
+  for (int i = 0; i < f->corners; i++)
+    for (int k = 0; k < i; k++) {
+      double d[3] = {f->x[i][0] - f->x[k][0], f->x[i][1] - f->x[k][1], f->x[i][2] - f->x[k][2]};
+      longest = fmax(longest, cdem_norm3(d));
+    }
+  double wanted = ceil(4.0 * longest / least);
   int n = wanted < 8.0 ? 8 : wanted > 256.0 ? 256 : (int)wanted;
   bool triangle = f->corners == 3;
   for (int i = 0; i < n; i++)
     for (int j = 0; j < (triangle ? 2 * (n - i) - 1 : n); j++) {
       /* a triangle falls apart into upright and hanging ones */
-      double part = triangle ? (j % 2 == 0 ? 1.0 / 3.0 : 2.0 / 3.0) : 0.5, x[3];
+      double part = triangle ? (j % 2 == 0 ? 1.0 / 3.0 : 2.0 / 3.0) : 0.5, x[3], normal[3];
       double u = (i + part) / n, v = ((triangle ? j / 2 : j) + part) / n;
-      double element = place_on(f, u, v, x) * (triangle ? 0.5 : 1.0) / ((double)n * n);
-      add(to, f, nearest(f, grains, count, at, x), element);
+      place_on(f, u, v, x, normal);
+      double size = cdem_norm3(normal);
+      for (int c = 0; c < 3; c++)
+        normal[c] /= size;
+      add(to, normal, nearest(f, grains, count, at, x),
+          size * (triangle ? 0.5 : 1.0) / ((double)n * n));
     }
 }
 
 static cdem_status one_face(const cdem_bsm_frame *f, const cdem_grains *grains, double reach,
                             stop *at, const sums *to, cdem_fault *fault) {
   int64_t count = 0;
+  bool touched = false;
   /* Hats reach over the corners of a face to the next grain beyond it. */
   for (int64_t i = 0; i < grains->grains; i++)
     if (touches(f, grains, i, reach, 3.0)) {
@@ -154,8 +163,9 @@ static cdem_status one_face(const cdem_bsm_frame *f, const cdem_grains *grains, 
       for (int c = 0; c < 3; c++)
         way[c] = grains->xyz[3 * i + c] - f->x[0][c];
       at[count++] = (stop){cdem_dot3(way, f->tangent), i};
+      touched = touched || touches(f, grains, i, reach, 1.0);
     }
-  CDEM_REQUIRE(count > 0, fault, CDEM_INPUT,
+  CDEM_REQUIRE(touched, fault, CDEM_INPUT,
                "no grain touches the face at (%.4g, %.4g, %.4g m) that is loaded; let the packing "
                "reach the edge of the mesh",
                f->x[0][0], f->x[0][1], f->x[0][2]);
@@ -170,16 +180,24 @@ static cdem_status one_face(const cdem_bsm_frame *f, const cdem_grains *grains, 
 cdem_status cdem_bsm_tributary(const cdem_mesh *mesh, int64_t faces, const cdem_bsm_face *face,
                                const cdem_grains *grains, double gap, double thickness,
                                double *area, double *normal, cdem_fault *fault) {
-  const sums to = {thickness, area, normal};
-  double reach = gap * largest_radius(grains);
-  cdem_status status = CDEM_OK;
-  stop *at;
-  CDEM_NEW(at, grains->grains, fault);
+  double reach = gap * largest_radius(grains), *own; /* until every face has succeeded */
+  int64_t n = grains->grains;
+  stop *at = cdem_allocate(n, sizeof *at, fault);
+  if (at == NULL)
+    return CDEM_MEMORY;
+  own = cdem_allocate(4 * n, sizeof *own, fault);
+  cdem_status status = own != NULL ? CDEM_OK : CDEM_MEMORY;
+  const sums to = {thickness, own, own != NULL ? own + n : NULL};
   for (int64_t k = 0; k < faces && status == CDEM_OK; k++) {
     cdem_bsm_frame f;
     cdem_bsm_frame_of(mesh, face[k].corners, face[k].node, &f);
     status = one_face(&f, grains, reach, at, &to, fault);
   }
+  for (int64_t i = 0; status == CDEM_OK && area != NULL && i < n; i++)
+    area[i] += to.area[i];
+  for (int64_t i = 0; status == CDEM_OK && normal != NULL && i < 3 * n; i++)
+    normal[i] += to.normal[i];
+  free(own);
   free(at);
   return status;
 }
