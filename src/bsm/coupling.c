@@ -172,6 +172,9 @@ cdem_status cdem_coupling_step(cdem_coupling *c, cdem_fault *fault) {
                      "become unstable: the limit is now %.4g s, set by %s; take fewer cycles",
                      o->coarse->time, o->cycles, c->step, limit, limiter);
   }
+  CDEM_REQUIRE(o->coarse->step <= (1.0 + 1e-9) * c->step, fault, CDEM_USAGE,
+               "the step of the body has changed to %.17g s; a coupled body has a fixed step",
+               o->coarse->step);
   book(c);
   drive(c);
   CDEM_TRY(cdem_dem_steps(o->fine, o->cycles, fault));

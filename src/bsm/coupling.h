@@ -74,7 +74,7 @@ void cdem_coupling_release(cdem_coupling *coupling);
 cdem_status cdem_coupling_limit(const cdem_body *body, double limit, const cdem_tie *tie,
                                 const cdem_dem *fine, double *most_step, cdem_fault *fault);
 
-/* One coarse step. CDEM_USAGE when the grains have changed their step. CDEM_NUMERIC also when the
+/* One coarse step. CDEM_USAGE when a solver has changed its step. CDEM_NUMERIC also when the
  * body has had to shorten its step (breaking, contact): names the step that is stable now. */
 cdem_status cdem_coupling_step(cdem_coupling *coupling, cdem_fault *fault);
 

@@ -38,7 +38,8 @@ cdem_status cdem_tie_init(const cdem_mesh *mesh, int dofs, int64_t grains, const
   if (status == CDEM_OK && t.grain == NULL)
     status = CDEM_MEMORY;
   if (status == CDEM_OK) {
-    memcpy(t.grain, grain, (size_t)grains * sizeof *grain);
+    for (int64_t a = 0; a < grains; a++)
+      t.grain[a] = grain[a];
     status = list_nodes(mesh, &t, fault);
   }
   if (status != CDEM_OK) {
