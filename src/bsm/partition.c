@@ -2,6 +2,7 @@
 
 #include "base/mat3.h"
 #include "base/memory.h"
+#include "bsm/face.h"
 #include "bsm/weights.h"
 
 #include <math.h>
@@ -97,7 +98,9 @@ typedef struct {
 
 static int64_t bin_of(const bins *b, int c, double x) {
   double at = floor((x - b->low[c]) / b->size);
-  return at < 0.0 ? 0 : at >= (double)b->count[c] ? b->count[c] - 1 : (int64_t)at;
+  if (!(at > 0.0))
+    return 0;
+  return at >= (double)b->count[c] ? b->count[c] - 1 : (int64_t)at;
 }
 
 static int64_t bin_at(const bins *b, const double x[3]) {
@@ -117,11 +120,13 @@ static cdem_status sort_fine(const cdem_grains *grains, const uint8_t *part, dou
       high[c] = fmax(high[c], grains->xyz[3 * i + c]);
       fine += c == 0;
     }
-  b->size = reach;
-  for (int c = 0; c < 3; c++) {
-    double count = floor((high[c] - b->low[c]) / reach) + 1.0;
-    b->count[c] = count > 4096.0 ? 4096 : (int64_t)count;
-    b->size = fmax(b->size, (high[c] - b->low[c]) / (double)b->count[c]);
+  /* Few grains far apart must not make bins without end. */
+  for (b->size = reach;; b->size *= 2.0) {
+    double count = 1.0;
+    for (int c = 0; c < 3; c++)
+      count *= floor((high[c] - b->low[c]) / b->size) + 1.0;
+    if (!(count > 64.0 * (double)fine + 64.0))
+      break;
   }
   for (int c = 0; c < 3; c++) {
     b->count[c] = (int64_t)floor((high[c] - b->low[c]) / b->size) + 1;
@@ -192,7 +197,8 @@ static int compare_faces(const void *a, const void *b) {
   return memcmp(a, b, sizeof(face));
 }
 
-static int face_of(const cdem_mesh *mesh, int32_t cell, int index, face *f) {
+/* Corners of a face in order around it, and the face to compare. */
+static int face_of(const cdem_mesh *mesh, int32_t cell, int index, int32_t corner[4], face *f) {
   const cdem_shape_info *shape = cdem_shape_get((cdem_shape)mesh->cell_shape[cell]);
   const int32_t *node = cdem_mesh_cell(mesh, cell);
   bool plane = shape->dimension == 2;
@@ -200,11 +206,11 @@ static int face_of(const cdem_mesh *mesh, int32_t cell, int index, face *f) {
   for (int i = 0; i < 4; i++)
     f->node[i] = -1;
   for (int i = 0; i < corners; i++) {
-    int32_t id = node[plane ? shape->edge[index][i] : shape->face[index][i]];
     int at = i;
-    for (; at > 0 && f->node[at - 1] > id; at--)
+    corner[i] = node[plane ? shape->edge[index][i] : shape->face[index][i]];
+    for (; at > 0 && f->node[at - 1] > corner[i]; at--)
       f->node[at] = f->node[at - 1];
-    f->node[at] = id;
+    f->node[at] = corner[i];
   }
   return corners;
 }
@@ -212,24 +218,6 @@ static int face_of(const cdem_mesh *mesh, int32_t cell, int index, face *f) {
 static int faces_of(const cdem_mesh *mesh, int32_t cell) {
   const cdem_shape_info *shape = cdem_shape_get((cdem_shape)mesh->cell_shape[cell]);
   return shape->dimension == 2 ? shape->edges : shape->faces;
-}
-
-/* Length (2-D) or area of a face; a quadrilateral as its corners span it, in any order: half of the
- * box of its diagonals is enough for a look at coverage. */
-static double size_of(const cdem_mesh *mesh, const face *f, int corners) {
-  double d[3][3] = {{0}}, cross[3];
-  for (int i = 1; i < corners; i++)
-    for (int c = 0; c < 3; c++)
-      d[i - 1][c] = mesh->xyz[3 * (int64_t)f->node[i] + c] - mesh->xyz[3 * (int64_t)f->node[0] + c];
-  if (corners == 2)
-    return cdem_norm3(d[0]);
-  cdem_cross3(d[0], d[1], cross);
-  double area = 0.5 * cdem_norm3(cross);
-  for (int k = 0; corners == 4 && k < 2; k++) {
-    cdem_cross3(d[k], d[2], cross);
-    area = fmax(area, 0.5 * cdem_norm3(cross));
-  }
-  return corners == 4 ? 2.0 * area : area;
 }
 
 static cdem_status uncovered(const cdem_mesh *mesh, int32_t cell, double part, cdem_fault *fault) {
@@ -242,41 +230,104 @@ static cdem_status uncovered(const cdem_mesh *mesh, int32_t cell, double part, c
                    (long long)mesh->cell_tag[cell], x[0], x[1], x[2], 100.0 * part);
 }
 
-static cdem_status check_cover(const cdem_mesh *mesh, int32_t fine_cells, const int32_t *fine_cell,
-                               const cdem_grains *grains, const cdem_partition *p,
-                               cdem_fault *fault) {
-  static const double least = 0.3; /* a lattice at 45 degrees has 0.7 */
-  int64_t faces = 0;
-  face *list;
-  double *covered;
-  cdem_status status = CDEM_OK;
-  CDEM_NEW(list, 6 * (int64_t)fine_cells, fault);
-  covered = cdem_allocate(mesh->cells, sizeof *covered, fault);
-  if (covered == NULL) {
-    free(list);
-    return CDEM_MEMORY;
-  }
+/* What stands behind faces: interface grains by their cells, outer cells by their nodes. */
+typedef struct {
+  int64_t faces;
+  face *face;           /* [faces] of fine cells, sorted */
+  int64_t *grain_start; /* [mesh cells + 2] */
+  int32_t *grain;       /* [interface grains] */
+  int64_t *cell_start;  /* [mesh nodes + 2] */
+  int32_t *cell;        /* outer cells of each node */
+  int64_t *seen;        /* [mesh cells] the face that has counted a cell last */
+} cover;
+
+static void cover_release(cover *c) {
+  free(c->face);
+  free(c->grain_start);
+  free(c->grain);
+  free(c->cell_start);
+  free(c->cell);
+  free(c->seen);
+}
+
+static cdem_status cover_init(const cdem_mesh *mesh, int32_t fine_cells, const int32_t *fine_cell,
+                              const cdem_partition *p, cover *c, cdem_fault *fault) {
+  int32_t corner[4];
+  int64_t entries = 0;
+  for (int32_t k = 0; k < p->outer_cells; k++)
+    entries += mesh->cell_start[p->outer_cell[k] + 1] - mesh->cell_start[p->outer_cell[k]];
+  CDEM_NEW(c->face, 6 * (int64_t)fine_cells, fault);
+  CDEM_NEW(c->grain_start, (int64_t)mesh->cells + 2, fault);
+  CDEM_NEW(c->grain, p->interfaces, fault);
+  CDEM_NEW(c->cell_start, (int64_t)mesh->nodes + 2, fault);
+  CDEM_NEW(c->cell, entries, fault);
+  CDEM_NEW(c->seen, mesh->cells, fault);
   for (int32_t k = 0; k < fine_cells; k++)
     for (int i = 0; i < faces_of(mesh, fine_cell[k]); i++)
-      face_of(mesh, fine_cell[k], i, &list[faces++]);
-  qsort(list, (size_t)faces, sizeof *list, compare_faces);
+      face_of(mesh, fine_cell[k], i, corner, &c->face[c->faces++]);
+  qsort(c->face, (size_t)c->faces, sizeof *c->face, compare_faces);
+  /* Both lists: counted two places on, summed, then filled one place on. */
   for (int64_t i = 0; i < p->grains; i++)
     if (p->part[i] == CDEM_PART_INTERFACE)
-      covered[p->cell[i]] += pow(2.0 * grains->radius[i], grains->dim - 1);
-  for (int32_t k = 0; k < p->outer_cells && status == CDEM_OK; k++) {
-    double size = 0.0;
+      c->grain_start[p->cell[i] + 2]++;
+  for (int32_t k = 2; k <= mesh->cells; k++)
+    c->grain_start[k] += c->grain_start[k - 1];
+  for (int64_t i = 0; i < p->grains; i++)
+    if (p->part[i] == CDEM_PART_INTERFACE)
+      c->grain[c->grain_start[p->cell[i] + 1]++] = (int32_t)i;
+  for (int pass = 0; pass < 2; pass++) {
+    for (int32_t k = 0; k < p->outer_cells; k++)
+      for (int64_t n = mesh->cell_start[p->outer_cell[k]];
+           n < mesh->cell_start[p->outer_cell[k] + 1]; n++) {
+        if (pass == 0)
+          c->cell_start[mesh->cell_node[n] + 2]++;
+        else
+          c->cell[c->cell_start[mesh->cell_node[n] + 1]++] = p->outer_cell[k];
+      }
+    for (int32_t n = 2; pass == 0 && n <= mesh->nodes; n++)
+      c->cell_start[n] += c->cell_start[n - 1];
+  }
+  return CDEM_OK;
+}
+
+/* Size of the interface grains whose foot is on a face, in whatever cell around it they lie: cells
+ * that taper (tetrahedra, pyramids) leave part of the layer to their neighbours. `mark`: other than
+ * at any call before. */
+static double behind(const cover *c, const cdem_grains *grains, const cdem_bsm_frame *f,
+                     int corners, const int32_t *corner, int64_t mark) {
+  double size = 0.0;
+  for (int i = 0; i < corners; i++)
+    for (int64_t k = c->cell_start[corner[i]]; k < c->cell_start[corner[i] + 1]; k++) {
+      int32_t cell = c->cell[k];
+      if (c->seen[cell] == mark)
+        continue;
+      c->seen[cell] = mark;
+      for (int64_t g = c->grain_start[cell]; g < c->grain_start[cell + 1]; g++)
+        if (cdem_bsm_on_face(f, grains->xyz + 3 * (int64_t)c->grain[g], 0.0))
+          size += pow(2.0 * grains->radius[c->grain[g]], grains->dim - 1);
+    }
+  return size;
+}
+
+static cdem_status check_cover(const cdem_mesh *mesh, const cdem_grains *grains,
+                               const cdem_partition *p, const cover *c, cdem_fault *fault) {
+  static const double least = 0.3; /* a lattice at 45 degrees has 0.7 */
+  int64_t mark = 0;
+  for (int32_t k = 0; k < p->outer_cells; k++)
     for (int i = 0; i < faces_of(mesh, p->outer_cell[k]); i++) {
       face f;
-      int corners = face_of(mesh, p->outer_cell[k], i, &f);
-      if (bsearch(&f, list, (size_t)faces, sizeof *list, compare_faces) != NULL)
-        size += size_of(mesh, &f, corners);
+      int32_t corner[4];
+      cdem_bsm_frame frame;
+      int corners = face_of(mesh, p->outer_cell[k], i, corner, &f);
+      if (bsearch(&f, c->face, (size_t)c->faces, sizeof f, compare_faces) == NULL)
+        continue;
+      cdem_bsm_frame_of(mesh, corners, corner, &frame);
+      double size = cdem_bsm_face_size(&frame);
+      double covered = behind(c, grains, &frame, corners, corner, ++mark);
+      if (covered < least * size)
+        return uncovered(mesh, p->outer_cell[k], covered / size, fault);
     }
-    if (size > 0.0 && covered[p->outer_cell[k]] < least * size)
-      status = uncovered(mesh, p->outer_cell[k], covered[p->outer_cell[k]] / size, fault);
-  }
-  free(list);
-  free(covered);
-  return status;
+  return CDEM_OK;
 }
 
 /* ---- all ---- */
@@ -342,7 +393,12 @@ static cdem_status divide(const cdem_mesh *mesh, int32_t fine_cells, const int32
   free(cell);
   free(xi);
   CDEM_TRY(status);
-  return check_cover(mesh, fine_cells, fine_cell, grains, p, fault);
+  cover c = {0};
+  status = cover_init(mesh, fine_cells, fine_cell, p, &c, fault);
+  if (status == CDEM_OK)
+    status = check_cover(mesh, grains, p, &c, fault);
+  cover_release(&c);
+  return status;
 }
 
 cdem_status cdem_partition_init(const cdem_mesh *mesh, int32_t fine_cells, const int32_t *fine_cell,

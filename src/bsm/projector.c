@@ -196,6 +196,7 @@ static cdem_status build(const cdem_projector_options *o, cdem_projector *p, cde
   cholmod_l_start(&p->factors->common);
   p->factors->started = true;
   p->factors->common.print = 0;
+  p->factors->common.final_ll = 1; /* L D L^T would take masses of either sign */
   CDEM_TRY(factorise(p, p->mass, &p->factors->translation, fault));
   return factorise(p, p->inertia, &p->factors->rotation, fault);
 }
@@ -242,22 +243,28 @@ static cdem_status solve(const cdem_projector *p, cholmod_factor *factor, int wi
 cdem_status cdem_projector_project(const cdem_projector *p, cdem_projector_shape shape,
                                    const double *q, double *d, cdem_fault *fault) {
   int width = shape.translations + shape.rotations;
-  double *weighted;
-  CDEM_NEW(weighted, p->grains * width, fault);
+  int64_t count = (int64_t)p->nodes * width;
+  double *right, *weighted;
+  CDEM_NEW(right, count + p->grains * width, fault);
+  weighted = right + count;
   for (int64_t a = 0; a < p->grains; a++)
     for (int c = 0; c < width; c++)
       weighted[a * width + c] =
           (c < shape.translations ? p->mass[a] : p->inertia[a]) * q[a * width + c];
-  memset(d, 0, (size_t)p->nodes * (size_t)width * sizeof *d);
-  cdem_weights_gather(&p->weights, width, weighted, d);
-  free(weighted);
-  CDEM_TRY(solve(p, p->factors->translation, width, 0, shape.translations, d, fault));
-  CDEM_TRY(solve(p, p->factors->rotation, width, shape.translations, width, d, fault));
+  cdem_weights_gather(&p->weights, width, weighted, right);
+  cdem_status status =
+      solve(p, p->factors->translation, width, 0, shape.translations, right, fault);
+  if (status == CDEM_OK)
+    status = solve(p, p->factors->rotation, width, shape.translations, width, right, fault);
   double sum = 0.0;
-  for (int64_t k = 0; k < (int64_t)p->nodes * width; k++)
-    sum += fabs(d[k]);
-  CDEM_REQUIRE(isfinite(sum), fault, CDEM_NUMERIC, "the motion of the grains is not finite");
-  return CDEM_OK;
+  for (int64_t k = 0; k < count; k++)
+    sum += fabs(right[k]);
+  if (status == CDEM_OK && !isfinite(sum))
+    status = cdem_fail(fault, CDEM_NUMERIC, "the motion of the grains is not finite");
+  if (status == CDEM_OK)
+    memcpy(d, right, (size_t)count * sizeof *d);
+  free(right);
+  return status;
 }
 
 cdem_status cdem_projector_split(const cdem_projector *p, cdem_projector_shape shape,

@@ -38,7 +38,8 @@ cdem_status cdem_tie_init(const cdem_mesh *mesh, int dofs, int64_t grains, const
   if (status == CDEM_OK && t.grain == NULL)
     status = CDEM_MEMORY;
   if (status == CDEM_OK) {
-    memcpy(t.grain, grain, (size_t)grains * sizeof *grain);
+    for (int64_t a = 0; a < grains; a++)
+      t.grain[a] = grain[a];
     status = list_nodes(mesh, &t, fault);
   }
   if (status != CDEM_OK) {
@@ -113,5 +114,9 @@ double cdem_tie_frequency2(const cdem_tie *tie, const double *stiffness, const d
       most[1] = fmax(most[1], row[2 * n + 1] / turns);
   }
   free(row);
-  return most[0] + most[1];
+  if (rotates(tie))
+    return most[0] + most[1];
+  /* v and w of a grain come from the same nodes, and one spring may resist both. */
+  double root = sqrt(most[0]) + sqrt(most[1]);
+  return root * root;
 }

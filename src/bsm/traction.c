@@ -2,75 +2,20 @@
 
 #include "base/mat3.h"
 #include "base/memory.h"
+#include "bsm/face.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A face as a frame: origin, unit tangents, outward normal, size. */
-typedef struct {
-  int dim, corners;
-  double x[4][3], tangent[3], normal[3], length; /* length: 2-D */
-} frame;
-
-static void frame_of(const cdem_mesh *mesh, const cdem_bsm_face *face, frame *f) {
-  double e[3], g[3];
-  f->corners = face->corners;
-  f->dim = face->corners == 2 ? 2 : 3;
-  for (int i = 0; i < face->corners; i++)
-    memcpy(f->x[i], mesh->xyz + 3 * (int64_t)face->node[i], sizeof f->x[i]);
-  for (int c = 0; c < 3; c++) {
-    e[c] = f->x[1][c] - f->x[0][c];
-    g[c] = f->x[f->corners - 1][c] - f->x[0][c];
-  }
-  f->length = cdem_norm3(e);
-  for (int c = 0; c < 3; c++)
-    f->tangent[c] = e[c] / f->length;
-  if (f->dim == 2) { /* interior on the left: outward is to the right */
-    f->normal[0] = f->tangent[1];
-    f->normal[1] = -f->tangent[0];
-    f->normal[2] = 0.0;
-    return;
-  }
-  cdem_cross3(e, g, f->normal);
-  double size = cdem_norm3(f->normal);
-  for (int c = 0; c < 3; c++)
-    f->normal[c] /= size;
-}
-
-/* Is the foot of a point on the face, or beside it by less than `margin`? */
-static bool on_face(const frame *f, const double x[3], double margin) {
-  double way[3], foot[3], above;
-  for (int c = 0; c < 3; c++)
-    way[c] = x[c] - f->x[0][c];
-  if (f->dim == 2) {
-    double s = cdem_dot3(way, f->tangent);
-    return s >= -margin && s <= f->length + margin;
-  }
-  above = cdem_dot3(way, f->normal);
-  for (int c = 0; c < 3; c++)
-    foot[c] = x[c] - above * f->normal[c];
-  for (int i = 0; i < f->corners; i++) {
-    double edge[3], out[3], from[3];
-    for (int c = 0; c < 3; c++) {
-      edge[c] = f->x[(i + 1) % f->corners][c] - f->x[i][c];
-      from[c] = foot[c] - f->x[i][c];
-    }
-    cdem_cross3(edge, f->normal, out);
-    if (cdem_dot3(out, from) > margin * cdem_norm3(out))
-      return false;
-  }
-  return true;
-}
-
-static bool touches(const frame *f, const cdem_grains *grains, int64_t i, double reach,
+static bool touches(const cdem_bsm_frame *f, const cdem_grains *grains, int64_t i, double reach,
                     double margin) {
   const double *x = grains->xyz + 3 * i;
   double way[3];
   for (int c = 0; c < 3; c++)
     way[c] = x[c] - f->x[0][c];
   double depth = -cdem_dot3(way, f->normal), radius = grains->radius[i];
-  return depth >= -radius && depth <= radius + reach && on_face(f, x, margin * radius);
+  return depth >= -radius && depth <= radius + reach && cdem_bsm_on_face(f, x, margin * radius);
 }
 
 static double largest_radius(const cdem_grains *grains) {
@@ -84,8 +29,8 @@ void cdem_bsm_touching(const cdem_mesh *mesh, int64_t faces, const cdem_bsm_face
                        const cdem_grains *grains, double gap, bool *touch) {
   double reach = gap * largest_radius(grains);
   for (int64_t k = 0; k < faces; k++) {
-    frame f;
-    frame_of(mesh, &face[k], &f);
+    cdem_bsm_frame f;
+    cdem_bsm_frame_of(mesh, face[k].corners, face[k].node, &f);
     for (int64_t i = 0; i < grains->grains; i++)
       touch[i] = touch[i] || touches(&f, grains, i, reach, 1.0);
   }
@@ -109,16 +54,15 @@ typedef struct {
   double thickness, *area, *normal;
 } sums;
 
-static void add(const sums *to, const frame *f, int64_t grain, double area) {
-  if (to->area != NULL)
-    to->area[grain] += area;
-  for (int c = 0; to->normal != NULL && c < 3; c++)
-    to->normal[3 * grain + c] += area * f->normal[c];
+static void add(const sums *to, const double normal[3], int64_t grain, double area) {
+  to->area[grain] += area;
+  for (int c = 0; c < 3; c++)
+    to->normal[3 * grain + c] += area * normal[c];
 }
 
 /* Hats between the stops, constant beyond the first and the last: over the piece from p to q their
  * mean is their value in its middle. */
-static void hats(const frame *f, int64_t count, const stop *at, const sums *to) {
+static void hats(const cdem_bsm_frame *f, int64_t count, const stop *at, const sums *to) {
   double from = 0.0;
   for (int64_t i = 0; i <= count && from < f->length; i++) {
     double end = i < count ? fmin(fmax(at[i].s, 0.0), f->length) : f->length;
@@ -126,20 +70,20 @@ static void hats(const frame *f, int64_t count, const stop *at, const sums *to) 
     if (end <= from)
       continue;
     if (i == 0 || i == count) {
-      add(to, f, at[i == 0 ? 0 : count - 1].grain, area);
+      add(to, f->normal, at[i == 0 ? 0 : count - 1].grain, area);
     } else {
       double t = (middle - at[i - 1].s) / (at[i].s - at[i - 1].s);
-      add(to, f, at[i - 1].grain, (1.0 - t) * area);
-      add(to, f, at[i].grain, t * area);
+      add(to, f->normal, at[i - 1].grain, (1.0 - t) * area);
+      add(to, f->normal, at[i].grain, t * area);
     }
     from = end;
   }
 }
 
-/* Shape functions of the corners at a place of the unit square or triangle, and the area element.
- */
-static double place_on(const frame *f, double u, double v, double x[3]) {
-  double n[4], du[4], dv[4], a[3] = {0}, b[3] = {0}, cross[3];
+/* Place at u, v of the unit square or triangle, and the area vector there: of a quadrilateral that
+ * is not flat it turns. Linear in u and v each, so that sums over middles of parts are exact. */
+static void place_on(const cdem_bsm_frame *f, double u, double v, double x[3], double area[3]) {
+  double n[4], du[4], dv[4], a[3] = {0}, b[3] = {0};
   if (f->corners == 3) {
     const double n3[3] = {1.0 - u - v, u, v}, u3[3] = {-1, 1, 0}, v3[3] = {-1, 0, 1};
     memcpy(n, n3, sizeof n3);
@@ -159,12 +103,11 @@ static double place_on(const frame *f, double u, double v, double x[3]) {
       a[c] += du[i] * f->x[i][c];
       b[c] += dv[i] * f->x[i][c];
     }
-  cdem_cross3(a, b, cross);
-  return cdem_norm3(cross);
+  cdem_cross3(a, b, area);
 }
 
-static int64_t nearest(const frame *f, const cdem_grains *grains, int64_t count, const stop *at,
-                       const double x[3]) {
+static int64_t nearest(const cdem_bsm_frame *f, const cdem_grains *grains, int64_t count,
+                       const stop *at, const double x[3]) {
   double least = INFINITY;
   int64_t best = 0;
   for (int64_t i = 0; i < count; i++) {
@@ -181,27 +124,38 @@ static int64_t nearest(const frame *f, const cdem_grains *grains, int64_t count,
   return best;
 }
 
-static void cells_of(const frame *f, const cdem_grains *grains, int64_t count, const stop *at,
-                     const sums *to) {
+static void cells_of(const cdem_bsm_frame *f, const cdem_grains *grains, int64_t count,
+                     const stop *at, const sums *to) {
   double least = INFINITY;
   for (int64_t i = 0; i < count; i++)
     least = fmin(least, grains->radius[at[i].grain]);
-  double wanted = ceil(4.0 * f->length / least);
+  double longest = 0.0; /* distances of corners */
+  for (int i = 0; i < f->corners; i++)
+    for (int k = 0; k < i; k++) {
+      double d[3] = {f->x[i][0] - f->x[k][0], f->x[i][1] - f->x[k][1], f->x[i][2] - f->x[k][2]};
+      longest = fmax(longest, cdem_norm3(d));
+    }
+  double wanted = ceil(4.0 * longest / least);
   int n = wanted < 8.0 ? 8 : wanted > 256.0 ? 256 : (int)wanted;
   bool triangle = f->corners == 3;
   for (int i = 0; i < n; i++)
     for (int j = 0; j < (triangle ? 2 * (n - i) - 1 : n); j++) {
       /* a triangle falls apart into upright and hanging ones */
-      double part = triangle ? (j % 2 == 0 ? 1.0 / 3.0 : 2.0 / 3.0) : 0.5, x[3];
+      double part = triangle ? (j % 2 == 0 ? 1.0 / 3.0 : 2.0 / 3.0) : 0.5, x[3], normal[3];
       double u = (i + part) / n, v = ((triangle ? j / 2 : j) + part) / n;
-      double element = place_on(f, u, v, x) * (triangle ? 0.5 : 1.0) / ((double)n * n);
-      add(to, f, nearest(f, grains, count, at, x), element);
+      place_on(f, u, v, x, normal);
+      double size = cdem_norm3(normal);
+      for (int c = 0; c < 3; c++)
+        normal[c] /= size;
+      add(to, normal, nearest(f, grains, count, at, x),
+          size * (triangle ? 0.5 : 1.0) / ((double)n * n));
     }
 }
 
-static cdem_status one_face(const frame *f, const cdem_grains *grains, double reach, stop *at,
-                            const sums *to, cdem_fault *fault) {
+static cdem_status one_face(const cdem_bsm_frame *f, const cdem_grains *grains, double reach,
+                            stop *at, const sums *to, cdem_fault *fault) {
   int64_t count = 0;
+  bool touched = false;
   /* Hats reach over the corners of a face to the next grain beyond it. */
   for (int64_t i = 0; i < grains->grains; i++)
     if (touches(f, grains, i, reach, 3.0)) {
@@ -209,8 +163,9 @@ static cdem_status one_face(const frame *f, const cdem_grains *grains, double re
       for (int c = 0; c < 3; c++)
         way[c] = grains->xyz[3 * i + c] - f->x[0][c];
       at[count++] = (stop){cdem_dot3(way, f->tangent), i};
+      touched = touched || touches(f, grains, i, reach, 1.0);
     }
-  CDEM_REQUIRE(count > 0, fault, CDEM_INPUT,
+  CDEM_REQUIRE(touched, fault, CDEM_INPUT,
                "no grain touches the face at (%.4g, %.4g, %.4g m) that is loaded; let the packing "
                "reach the edge of the mesh",
                f->x[0][0], f->x[0][1], f->x[0][2]);
@@ -225,16 +180,24 @@ static cdem_status one_face(const frame *f, const cdem_grains *grains, double re
 cdem_status cdem_bsm_tributary(const cdem_mesh *mesh, int64_t faces, const cdem_bsm_face *face,
                                const cdem_grains *grains, double gap, double thickness,
                                double *area, double *normal, cdem_fault *fault) {
-  const sums to = {thickness, area, normal};
-  double reach = gap * largest_radius(grains);
-  cdem_status status = CDEM_OK;
-  stop *at;
-  CDEM_NEW(at, grains->grains, fault);
+  double reach = gap * largest_radius(grains), *own; /* until every face has succeeded */
+  int64_t n = grains->grains;
+  stop *at = cdem_allocate(n, sizeof *at, fault);
+  if (at == NULL)
+    return CDEM_MEMORY;
+  own = cdem_allocate(4 * n, sizeof *own, fault);
+  cdem_status status = own != NULL ? CDEM_OK : CDEM_MEMORY;
+  const sums to = {thickness, own, own != NULL ? own + n : NULL};
   for (int64_t k = 0; k < faces && status == CDEM_OK; k++) {
-    frame f;
-    frame_of(mesh, &face[k], &f);
+    cdem_bsm_frame f;
+    cdem_bsm_frame_of(mesh, face[k].corners, face[k].node, &f);
     status = one_face(&f, grains, reach, at, &to, fault);
   }
+  for (int64_t i = 0; status == CDEM_OK && area != NULL && i < n; i++)
+    area[i] += to.area[i];
+  for (int64_t i = 0; status == CDEM_OK && normal != NULL && i < 3 * n; i++)
+    normal[i] += to.normal[i];
+  free(own);
   free(at);
   return status;
 }

@@ -22,16 +22,36 @@ static const cdem_element *element_of(const cdem_mesh *mesh, int32_t cell) {
   return cdem_element_for(shape, solid ? CDEM_SOLID : CDEM_PLANE);
 }
 
-/* dx/dxi, row-major; in a plane with a unit third direction. */
-static void jacobian(const cdem_mesh *mesh, int32_t cell, int nodes, int dim, const double (*dn)[3],
-                     double j[9]) {
+/* A cell by its nodes, relative to the first of them: a mesh far from the origin keeps its digits.
+ */
+typedef struct {
+  const cdem_element *element;
+  int nodes, dim;
+  double first[3], xyz[8][3], size; /* size: of the box, m */
+} place;
+
+static void place_of(const cdem_mesh *mesh, int32_t cell, place *p) {
   const int32_t *node = cdem_mesh_cell(mesh, cell);
+  p->element = element_of(mesh, cell);
+  p->nodes = cdem_element_nodes(p->element);
+  p->dim = cdem_element_dimension(p->element);
+  p->size = 0.0;
+  memcpy(p->first, mesh->xyz + 3 * (int64_t)node[0], sizeof p->first);
+  for (int i = 0; i < p->nodes; i++)
+    for (int c = 0; c < 3; c++) {
+      p->xyz[i][c] = mesh->xyz[3 * (int64_t)node[i] + c] - p->first[c];
+      p->size = fmax(p->size, fabs(p->xyz[i][c]));
+    }
+}
+
+/* dx/dxi, row-major; in a plane with a unit third direction. */
+static void jacobian(const place *p, const double (*dn)[3], double j[9]) {
   memset(j, 0, 9 * sizeof *j);
-  for (int i = 0; i < nodes; i++)
-    for (int r = 0; r < dim; r++)
-      for (int c = 0; c < dim; c++)
-        j[3 * r + c] += mesh->xyz[3 * (int64_t)node[i] + r] * dn[i][c];
-  if (dim == 2)
+  for (int i = 0; i < p->nodes; i++)
+    for (int r = 0; r < p->dim; r++)
+      for (int c = 0; c < p->dim; c++)
+        j[3 * r + c] += p->xyz[i][r] * dn[i][c];
+  if (p->dim == 2)
     j[8] = 1.0;
 }
 
@@ -59,41 +79,41 @@ static double beyond(cdem_shape shape, const double xi[3]) {
 }
 
 /* Newton's iteration from the middle of the cell; bilinear maps of valid cells converge in a few
- * steps for points inside. Returns false where it does not: the point is outside. */
+ * steps for points inside. Ends where the place is met to rounding before it looks at the slope,
+ * which at the apex of a pyramid is none. Returns false where it does not converge: the point is
+ * outside. */
 static bool invert(const cdem_mesh *mesh, int32_t cell, const double x[3], double xi[3]) {
   enum { MOST_STEPS = 25 };
-  const cdem_element *element = element_of(mesh, cell);
-  const int32_t *node = cdem_mesh_cell(mesh, cell);
-  int nodes = cdem_element_nodes(element), dim = cdem_element_dimension(element);
-  double n[8], dn[8][3], j[9], inverse[9];
+  place p;
+  double n[8], dn[8][3], j[9], inverse[9], way = INFINITY;
+  place_of(mesh, cell, &p);
   memset(xi, 0, 3 * sizeof *xi);
-  for (int i = 0; i < nodes; i++)
-    for (int c = 0; c < dim; c++)
-      xi[c] += element->reference[i][c] / nodes;
-  for (int step = 0; step < MOST_STEPS; step++) {
-    double r[3] = {0}, way = 0.0;
-    element->shape_functions(xi, n, dn);
-    for (int c = 0; c < dim; c++) {
-      r[c] = x[c];
-      for (int i = 0; i < nodes; i++)
-        r[c] -= n[i] * mesh->xyz[3 * (int64_t)node[i] + c];
+  for (int i = 0; i < p.nodes; i++)
+    for (int c = 0; c < p.dim; c++)
+      xi[c] += p.element->reference[i][c] / p.nodes;
+  for (int step = 0; step < MOST_STEPS && way >= 1e-15; step++) {
+    double r[3] = {0};
+    p.element->shape_functions(xi, n, dn);
+    for (int c = 0; c < p.dim; c++) {
+      r[c] = x[c] - p.first[c];
+      for (int i = 0; i < p.nodes; i++)
+        r[c] -= n[i] * p.xyz[i][c];
     }
-    jacobian(mesh, cell, nodes, dim, (const double(*)[3])dn, j);
+    if (cdem_norm3(r) <= 1e-16 * p.size)
+      return true;
+    jacobian(&p, (const double(*)[3])dn, j);
     if (!(fabs(cdem_inverse3(j, inverse)) > 0.0))
       return false;
-    for (int a = 0; a < dim; a++) {
-      double d = 0.0;
-      for (int c = 0; c < dim; c++)
-        d += inverse[3 * a + c] * r[c];
+    way = 0.0;
+    for (int a = 0; a < p.dim; a++) {
+      double d = cdem_dot3(inverse + 3 * a, r);
       xi[a] += d;
       way = fmax(way, fabs(d));
     }
-    if (way < 1e-14)
-      return true;
     if (!(way < 1e3))
       return false;
   }
-  return true; /* turning within rounding */
+  return way < 1e-10; /* turning within rounding */
 }
 
 /* ---- a grid of the cells' boxes ---- */
@@ -123,7 +143,9 @@ static void box_of(const cdem_mesh *mesh, int32_t cell, int dim, double low[3], 
 
 static int64_t bin(const boxes *b, int c, double x) {
   double at = floor((x - b->low[c]) / b->size);
-  return at < 0.0 ? 0 : at >= (double)b->count[c] ? b->count[c] - 1 : (int64_t)at;
+  if (!(at > 0.0)) /* not a number too: it is in no cell's box */
+    return 0;
+  return at >= (double)b->count[c] ? b->count[c] - 1 : (int64_t)at;
 }
 
 /* Visits the bins of a cell's box: counts them, or writes the cell into them. */
@@ -161,7 +183,7 @@ static cdem_status boxes_init(const cdem_mesh *mesh, int32_t cells, const int32_
   int64_t bins = 1;
   for (int c = 0; c < 3; c++) {
     double count = ceil((high[c] - b->low[c]) / b->size);
-    b->count[c] = count < 1.0 ? 1 : count > 1024.0 ? 1024 : (int64_t)count;
+    b->count[c] = count < 1.0 ? 1 : count > 0x1p20 ? 1 << 20 : (int64_t)count;
     bins *= b->count[c];
   }
   /* A long thin set of cells must not make bins without end. */
@@ -206,20 +228,18 @@ static int32_t find_cell(const cdem_mesh *mesh, const int32_t *cell, const boxes
 cdem_status cdem_locate(const cdem_mesh *mesh, int32_t cells, const int32_t *cell, int64_t points,
                         const double *xyz, int32_t *found, double *xi, cdem_fault *fault) {
   boxes b = {.dim = cdem_mesh_dimension(mesh)};
-  for (int64_t a = 0; a < points; a++)
-    found[a] = -1;
-  memset(xi, 0, 3 * (size_t)points * sizeof *xi);
-  if (cells == 0)
-    return CDEM_OK;
   for (int32_t k = 0; k < cells; k++) {
     const cdem_shape_info *shape = cdem_shape_get((cdem_shape)mesh->cell_shape[cell[k]]);
     CDEM_REQUIRE(shape->nodes == shape->corners && shape->dimension == b.dim, fault, CDEM_INPUT,
                  "element %lld is a %s; grains lie in elements of first order: mesh with order 1",
                  (long long)mesh->cell_tag[cell[k]], shape->name);
   }
-  cdem_status status = boxes_init(mesh, cells, cell, &b, fault);
-  for (int64_t a = 0; status == CDEM_OK && a < points; a++)
-    found[a] = find_cell(mesh, cell, &b, xyz + 3 * a, xi + 3 * a);
+  cdem_status status = cells > 0 ? boxes_init(mesh, cells, cell, &b, fault) : CDEM_OK;
+  for (int64_t a = 0; status == CDEM_OK && a < points; a++) {
+    found[a] = cells > 0 ? find_cell(mesh, cell, &b, xyz + 3 * a, xi + 3 * a) : -1;
+    if (found[a] < 0) /* nothing of a cell that was tried */
+      memset(xi + 3 * a, 0, 3 * sizeof *xi);
+  }
   free(b.start);
   free(b.item);
   return status;
@@ -229,17 +249,17 @@ cdem_status cdem_locate(const cdem_mesh *mesh, int32_t cells, const int32_t *cel
 
 static void fill_row(const cdem_mesh *mesh, int32_t cell, const double xi[3], int32_t *node,
                      double *value, double *gradient) {
-  const cdem_element *element = element_of(mesh, cell);
-  int nodes = cdem_element_nodes(element), dim = cdem_element_dimension(element);
+  place p;
   double n[8], dn[8][3], j[9], inverse[9];
-  element->shape_functions(xi, n, dn);
-  jacobian(mesh, cell, nodes, dim, (const double(*)[3])dn, j);
+  place_of(mesh, cell, &p);
+  p.element->shape_functions(xi, n, dn);
+  jacobian(&p, (const double(*)[3])dn, j);
   cdem_inverse3(j, inverse);
-  memcpy(node, cdem_mesh_cell(mesh, cell), (size_t)nodes * sizeof *node);
-  memcpy(value, n, (size_t)nodes * sizeof *value);
-  for (int i = 0; i < nodes; i++)
-    for (int c = 0; c < dim; c++)
-      for (int k = 0; k < dim; k++)
+  memcpy(node, cdem_mesh_cell(mesh, cell), (size_t)p.nodes * sizeof *node);
+  memcpy(value, n, (size_t)p.nodes * sizeof *value);
+  for (int i = 0; i < p.nodes; i++)
+    for (int c = 0; c < p.dim; c++)
+      for (int k = 0; k < p.dim; k++)
         gradient[3 * i + c] += dn[i][k] * inverse[3 * k + c];
 }
 
