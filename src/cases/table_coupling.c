@@ -16,6 +16,7 @@ static const cdem_case_section section_box =
 
 static const char *const versions[] = {"coupled", "frozen", "grains", "continuum", NULL};
 static const char *const forms[] = {"interface", "virtual-work", NULL};
+static const char *const motions[] = {"velocity", "acceleration", NULL};
 static const char *const rotations[] = {"physical", "scaled", NULL};
 
 #define COUPLING(member) AT(cdem_case_coupling, member)
@@ -37,6 +38,12 @@ static const cdem_case_key keys[] = {
      .help = "Steps of the grains in one step of the coarse medium; 0: automatic. Versions without "
              "a coarse medium take the same steps.",
      .example = "10"},
+    {COUPLING(interface_motion), .kind = CDEM_KEY_CHOICE, .choice = motions,
+     .help =
+         "How interface grains move within a step of the coarse medium: with its mean velocity, "
+         "which keeps energy, or with velocity and acceleration at its start, as published, "
+         "which grows where damping is low.",
+     .example = "acceleration"},
     {COUPLING(rotation), .kind = CDEM_KEY_CHOICE, .choice = rotations,
      .help = "Inertia of the micro-rotation of a Cosserat medium: that of the material, or "
              "multiplied until rotations no longer limit the step of the coarse medium.",

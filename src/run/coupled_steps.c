@@ -159,7 +159,8 @@ static cdem_status set_steps(cdem_run_coupled *c, double step, cdem_fault *fault
 }
 
 static cdem_status couple(cdem_run_coupled *c, double step, cdem_fault *fault) {
-  bool whole = cdem_run_coupled_values(c)->form == CDEM_BSM_VIRTUAL_WORK;
+  const cdem_case_coupling *v = cdem_run_coupled_values(c);
+  bool whole = v->form == CDEM_BSM_VIRTUAL_WORK;
   CDEM_TRY(tie_interface(c, fault));
   if (whole)
     CDEM_TRY(tie_fine(c, fault));
@@ -172,6 +173,7 @@ static cdem_status couple(cdem_run_coupled *c, double step, cdem_fault *fault) {
   const cdem_coupling_options options = {.coarse = &c->body->solver,
                                          .fine = &c->grains->dem,
                                          .form = whole ? CDEM_BSM_VIRTUAL_WORK : CDEM_BSM_INTERFACE,
+                                         .way = (cdem_bsm_way)v->interface_motion,
                                          .cycles = c->cycles,
                                          .tie = &c->tie,
                                          .fine_tie = whole ? &c->fine_tie : NULL,
