@@ -42,6 +42,11 @@
 #define solid_stress  KERNEL(solid_stress)
 #define plane_stress  KERNEL(plane_stress)
 #define elongations   KERNEL(elongations)
+#define close_up      KERNEL(close_up)
+#define mean_gradient KERNEL(mean_gradient)
+#define solid_frames  KERNEL(solid_frames)
+#define plane_frames  KERNEL(plane_frames)
+#define release_all   KERNEL(release_all)
 #define square        KERNEL(square)
 #define INLINE        CDEM_ALWAYS_INLINE TARGET
 
@@ -126,11 +131,27 @@ INLINE void relative(int nodes, int dofs, int moving, const cdem_body_task *task
   }
 }
 
+/* Takes an opening a (Voigt [6][CDEM_LANES]) out of local displacements: d_i -= a X_i. */
+INLINE void close_up(int nodes, int dimension, bool shared, const double *place,
+                     const cdem_body_task *task, int part, lanes (*d)[3]) {
+  static const int8_t at[9] = {0, 5, 4, 5, 1, 3, 4, 3, 2};
+  if (task->opening == NULL)
+    return;
+  const double *opening = task->opening + part * WIDTH;
+  for (int i = 1; i < nodes; i++)
+    for (int r = 0; r < dimension; r++)
+      for (int c = 0; c < dimension; c++)
+        d[i][r] -= (r == c ? 1.0 : 0.5) *
+                   (lanes)(*(const lanes_at *)(opening + CDEM_LANES * at[3 * r + c])) *
+                   ENTRY(place, dimension * (i - 1) + c);
+}
+
 #include "cdem/body_kernels_polar.h"
 #include "cdem/body_kernels_solid.h"
 /* The plane forms stand after the solid ones. */
 #include "cdem/body_kernels_plane.h"
 #include "cdem/body_kernels_stress.h"
+#include "cdem/body_kernels_tension.h"
 
 #define EACH_PART for (int part = 0; part < PARTS; part++)
 
@@ -221,6 +242,54 @@ TARGET static void KERNEL(determinants)(const cdem_body_task *task, double *dete
     *(lanes_at *)(determinant + part * WIDTH) = det;
   }
 }
+
+/* The number of nodes is a constant of the compiler in both. */
+#define EACH_KIND(call_solid, call_plane)                                                          \
+  switch (16 * (int)task->kind->formulation + task->kind->nodes) {                                 \
+  case 16 * CDEM_SOLID + 4:                                                                        \
+    call_solid(4);                                                                                 \
+    break;                                                                                         \
+  case 16 * CDEM_SOLID + 5:                                                                        \
+    call_solid(5);                                                                                 \
+    break;                                                                                         \
+  case 16 * CDEM_SOLID + 6:                                                                        \
+    call_solid(6);                                                                                 \
+    break;                                                                                         \
+  case 16 * CDEM_SOLID + 8:                                                                        \
+    call_solid(8);                                                                                 \
+    break;                                                                                         \
+  case 16 * CDEM_PLANE + 3:                                                                        \
+    call_plane(3, 2);                                                                              \
+    break;                                                                                         \
+  case 16 * CDEM_PLANE + 4:                                                                        \
+    call_plane(4, 2);                                                                              \
+    break;                                                                                         \
+  case 16 * CDEM_PLANE_COSSERAT + 3:                                                               \
+    call_plane(3, 3);                                                                              \
+    break;                                                                                         \
+  case 16 * CDEM_PLANE_COSSERAT + 4:                                                               \
+    call_plane(4, 3);                                                                              \
+    break;                                                                                         \
+  }
+
+TARGET static void KERNEL(frames)(const cdem_body_task *task, const double *mean,
+                                  cdem_body_frames *frames){
+#define SOLID(nodes)       solid_frames(nodes, task, mean, part, frames)
+#define PLANE(nodes, dofs) plane_frames(nodes, dofs, task, mean, part, frames)
+    EACH_PART EACH_KIND(SOLID, PLANE)
+#undef PLANE
+#undef SOLID
+}
+
+TARGET static void KERNEL(releases)(const cdem_body_task *task, const double *mean,
+                                    const cdem_body_pulls *pulls, double *force) {
+#define SOLID(nodes)       release_all(nodes, 3, 3, task, mean, part, pulls, force)
+#define PLANE(nodes, dofs) release_all(nodes, 2, dofs, task, mean, part, pulls, force)
+  EACH_PART EACH_KIND(SOLID, PLANE)
+#undef PLANE
+#undef SOLID
+}
+#undef EACH_KIND
 
 /* b = a a for symmetric a [size][size], entries PARTS vectors apart; returns |b|^2. */
 INLINE void square(int size, const lanes_at *a, lanes_at *b, lanes *norm2) {
@@ -317,6 +386,11 @@ TARGET static void KERNEL(bounds)(int size, double *a, double *work, double *bou
 #undef solid_stress
 #undef plane_stress
 #undef elongations
+#undef close_up
+#undef mean_gradient
+#undef solid_frames
+#undef plane_frames
+#undef release_all
 #undef square
 #undef INLINE
 #undef PARTS

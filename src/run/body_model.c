@@ -187,6 +187,7 @@ static cdem_status material_numbers(cdem_run_body *setup, cdem_fault *fault) {
        needed = values->analysis == CDEM_ANALYSIS_DYNAMIC || gravity;
   CDEM_NEW(setup->density, materials, fault);
   CDEM_NEW(setup->micro_inertia, materials, fault);
+  CDEM_NEW(setup->no_tension, materials, fault);
   CDEM_NEW(setup->moduli, materials, fault);
   for (int m = 0; m < materials; m++) {
     const cdem_case_material *material = &values->materials.item[m];
@@ -197,6 +198,7 @@ static cdem_status material_numbers(cdem_run_body *setup, cdem_fault *fault) {
     double length = cdem_material_length(&material->material);
     setup->micro_inertia[m] =
         isnan(material->micro_inertia) ? length * length : material->micro_inertia;
+    setup->no_tension[m] = material->tension == CDEM_CASE_TENSION_NONE;
     CDEM_TRY(moduli(setup, &setup->model.materials_of[m], &setup->moduli[m], fault));
   }
   return CDEM_OK;
@@ -244,6 +246,7 @@ cdem_status cdem_run_body_model(cdem_run_body *setup, cdem_fault *fault) {
   setup->run->threads = worthwhile_threads(setup);
   const cdem_body_options options = {.density = setup->density,
                                      .micro_inertia = setup->micro_inertia,
+                                     .no_tension = setup->no_tension,
                                      .linear = cdem_run_values(setup->run)->analysis ==
                                                CDEM_ANALYSIS_STATIC,
                                      .threads = setup->run->threads};
