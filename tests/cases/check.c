@@ -77,7 +77,7 @@ static void wrong_combinations(void **state) {
        "a material without tension wants isotropic moduli, and 'r' is orthotropic; give it 'young' "
        "and 'poisson', or 'tension: elastic'"},
       {"analysis: static\nmesh: a\nmaterials: {r: {young: 1, poisson: 0, tension: none}}\n",
-       "c.yaml:3:46: a static run is linear, and a material without tension is not; take "
+       "c.yaml:3:48: a static run is linear, and a material without tension is not; take "
        "'analysis: relaxation'"},
       {MATERIALS("  r: {young: 1, poisson: 0, density: 1, tension: some}\n"), "c.yaml:4:50: "},
       /* interfaces and contact */

@@ -191,7 +191,7 @@ static void no_opening_is_better(void **state) {
       const double *a = at.opening;
       const double own[9] = {a[0],     a[5] / 2, a[4] / 2, a[5] / 2, a[1],
                              a[3] / 2, a[4] / 2, a[3] / 2, a[2]};
-      for (int k = 0; k < 60; k++) {
+      for (int k = 0; k < 20; k++) {
         double n[3], keep = k == 0 ? 1.0 : cdem_random_uniform(&random, 0.9, 1.1);
         double size = k == 0 ? 0.0 : 1e-5 * pow(10.0, k % 4);
         for (int i = 0; i < 3; i++)
