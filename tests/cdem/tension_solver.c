@@ -212,6 +212,7 @@ static void open_column_bends(void **state) {
   check_near(cdem_solver_reaction(&r.solver, 0), total, 1e-4, 0.0);
   rig_release(&r);
   free(vector);
+  cdem_series_release(&load.series);
   free(node);
   drop(&support[0]);
   drop(&support[1]);
