@@ -47,8 +47,16 @@
 #define solid_frames  KERNEL(solid_frames)
 #define plane_frames  KERNEL(plane_frames)
 #define release_all   KERNEL(release_all)
-#define square        KERNEL(square)
-#define INLINE        CDEM_ALWAYS_INLINE TARGET
+#define any_lane      KERNEL(any_lane)
+#define open_planes   KERNEL(open_planes)
+#define turn_axes     KERNEL(turn_axes)
+#define order_axes    KERNEL(order_axes)
+#define definite      KERNEL(definite)
+#define open_solids   KERNEL(open_solids)
+
+#define open_principal KERNEL(open_principal)
+#define square         KERNEL(square)
+#define INLINE         CDEM_ALWAYS_INLINE TARGET
 
 enum { KERNEL(PARTS) = CDEM_LANES / WIDTH };
 #define PARTS KERNEL(PARTS)
@@ -281,6 +289,33 @@ TARGET static void KERNEL(frames)(const cdem_body_task *task, const double *mean
 #undef SOLID
 }
 
+/* Openings of isotropic cells, [6][CDEM_LANES]; none where `active` is 0. */
+TARGET static bool KERNEL(opens)(const cdem_body_isotropic *law, const cdem_body_frames *frames,
+                                 double *opening) {
+  int64_t any = 0;
+  EACH_PART {
+    lanes b[9], a[6] = {0}, zero = {0};
+    for (int k = 0; k < 9; k++)
+      b[k] = *(const lanes_at *)(frames->b[k] + part * WIDTH);
+    const lanes strain[6] = {b[0], b[4], b[8], b[5] + b[7], b[2] + b[6], b[1] + b[3]};
+    lanes first = *(const lanes_at *)(law->first + part * WIDTH);
+    lanes second = *(const lanes_at *)(law->second + part * WIDTH);
+    lane_mask active = *(const lanes_at *)(law->active + part * WIDTH) > zero;
+    if (law->solid)
+      open_solids(&first, &second, &active, strain, a);
+    else
+      open_planes(&first, &second, strain, a);
+    lane_mask opens = active & ((a[0] + a[1] + a[2]) > zero);
+    any |= any_lane(&opens);
+    for (int v = 0; v < 6; v++) {
+      lanes own;
+      select_lanes(&opens, &a[v], &zero, &own);
+      *(lanes_at *)(opening + CDEM_LANES * v + part * WIDTH) = own;
+    }
+  }
+  return any != 0;
+}
+
 TARGET static void KERNEL(releases)(const cdem_body_task *task, const double *mean,
                                     const cdem_body_pulls *pulls, double *force) {
 #define SOLID(nodes)       release_all(nodes, 3, 3, task, mean, part, pulls, force)
@@ -391,6 +426,13 @@ TARGET static void KERNEL(bounds)(int size, double *a, double *work, double *bou
 #undef solid_frames
 #undef plane_frames
 #undef release_all
+#undef any_lane
+#undef open_planes
+#undef turn_axes
+#undef order_axes
+#undef definite
+#undef open_solids
+#undef open_principal
 #undef square
 #undef INLINE
 #undef PARTS

@@ -207,6 +207,13 @@ typedef struct {
   double e[9][CDEM_LANES], inverse[6][CDEM_LANES], b[9][CDEM_LANES];
 } cdem_body_frames;
 
+/* Isotropic laws without tension of a batch. solid: lambda and mu; plane: D11 + D12 and D11 - D12.
+ * active: 1, or 0 for a cell that carries tension or is none. */
+typedef struct {
+  bool solid;
+  double first[CDEM_LANES], second[CDEM_LANES], active[CDEM_LANES];
+} cdem_body_isotropic;
+
 /* What openings add to the forces: pull m_i - turn g_i with m_i the mean gradients of the shape
  * functions and g_i those at the centre; global axes. */
 typedef struct {
@@ -220,8 +227,10 @@ typedef struct {
   void (*energies)(const cdem_body_task *task, double *energy);
   void (*stresses)(const cdem_body_task *task, const double (*law)[7], double *stress);
   void (*determinants)(const cdem_body_task *task, double *determinant);
-  /* mean: of the batch. The second adds to the forces of the first of these functions. */
+  /* mean: of the batch. The second tells whether anything opens; the third adds to the forces of
+   * the first of all these functions. */
   void (*frames)(const cdem_body_task *task, const double *mean, cdem_body_frames *frames);
+  bool (*opens)(const cdem_body_isotropic *law, const cdem_body_frames *frames, double *opening);
   void (*releases)(const cdem_body_task *task, const double *mean, const cdem_body_pulls *pulls,
                    double *force);
   /* a [size][size][CDEM_LANES] symmetric; bound [CDEM_LANES] of its largest eigenvalue; work as

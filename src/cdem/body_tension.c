@@ -85,26 +85,41 @@ cdem_status cdem_body_tension_fill(const cdem_model *model, const bool *no_tensi
   return CDEM_OK;
 }
 
-/* ---- what opens ---- */
+/* ---- what opens: by the kernel, cubic planes by the plain law ---- */
+
+/* The laws of a batch for the kernel; false where one is cubic. */
+static bool isotropic_of(const cdem_body *body, int64_t n, cdem_body_isotropic *law) {
+  const cdem_body_store *store = body->store;
+  law->solid = body->model->formulation == CDEM_SOLID;
+  for (int lane = 0; lane < CDEM_LANES; lane++) {
+    int32_t cell = store->cell[n * CDEM_LANES + lane];
+    const cdem_tension_law *own = cell >= 0 ? &store->tension[body->model->material[cell]] : NULL;
+    bool active = own != NULL && own->kind != CDEM_TENSION_ELASTIC;
+    if (active && own->k[1] != own->k[2])
+      return false;
+    law->active[lane] = active ? 1.0 : 0.0;
+    law->first[lane] = !active ? 1.0 : law->solid ? own->lambda : own->k[0];
+    law->second[lane] = !active ? 1.0 : law->solid ? own->mu : own->k[1];
+  }
+  return true;
+}
 
 bool cdem_body_openings(const cdem_body *body, const cdem_body_kernels *kernels,
                         const cdem_body_task *task, int64_t n, cdem_body_frames *frames,
                         double opening[6 * CDEM_LANES]) {
   const cdem_body_store *store = body->store;
+  cdem_body_isotropic law;
   bool any = false;
   if (store->mean_start[n] < 0)
     return false;
   kernels->frames(task, store->mean + store->mean_start[n], frames);
+  if (isotropic_of(body, n, &law))
+    return kernels->opens(&law, frames, opening);
   memset(opening, 0, 6 * CDEM_LANES * sizeof *opening);
   for (int lane = 0; lane < store->batch[n].cells; lane++) {
     int material = body->model->material[store->cell[n * CDEM_LANES + lane]];
     const double(*b)[CDEM_LANES] = (const double(*)[CDEM_LANES])frames->b;
-    const double strain[6] = {b[0][lane],
-                              b[4][lane],
-                              b[8][lane],
-                              b[5][lane] + b[7][lane],
-                              b[2][lane] + b[6][lane],
-                              b[1][lane] + b[3][lane]};
+    const double strain[6] = {b[0][lane], b[4][lane], 0.0, 0.0, 0.0, b[1][lane] + b[3][lane]};
     double a[6];
     if (!cdem_tension_open(&store->tension[material], strain, a))
       continue;

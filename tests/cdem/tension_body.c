@@ -336,6 +336,35 @@ static void threads_change_nothing(void **state) {
   }
 }
 
+/* Vectors of 8, 4 and 2 doubles agree on what openings add to the forces. */
+static void widths_agree(void **state) {
+  (void)state;
+  const cdem_body_kernels *two = cdem_body_kernels_of_width(2);
+  EACH_ELEMENT(element) {
+    specimen s;
+    make(id_, &(recipe){.count = 3, .distortion = 0.2, .no_tension = true}, &s);
+    double *v = new_vector(s.size), *u = new_vector(s.size), f[192], g[192];
+    double full = 0.0, off = 0.0;
+    mixed(&s, 0.02, 2, v);
+    turn_all(&s, v, 2.0, shift, u);
+    for (int width = 4; width <= 8; width *= 2) {
+      const cdem_body_kernels *kernels = cdem_body_kernels_of_width(width);
+      for (int64_t n = 0; kernels != NULL && n < s.body.store->batches; n++) {
+        cdem_body_task task = cdem_body_task_of(&s.body, u, n);
+        memset(f, 0, sizeof f);
+        memset(g, 0, sizeof g);
+        cdem_body_tension_forces(&s.body, two, &task, n, f);
+        cdem_body_tension_forces(&s.body, kernels, &task, n, g);
+        full = fmax(full, largest(f, 192));
+        off = fmax(off, difference(f, g, 192));
+      }
+    }
+    check_below(off, 1e-13 * full);
+    free(v), free(u);
+    specimen_release(&s);
+  }
+}
+
 /* Only some of the cells: the others feel what they did. Batches then hold both kinds. */
 static void materials_mix(void **state) {
   (void)state;
@@ -411,6 +440,7 @@ int main(void) {
       cmocka_unit_test(pressed_then_pulled),
       cmocka_unit_test(fields_show_what_is_carried),
       cmocka_unit_test(threads_change_nothing),
+      cmocka_unit_test(widths_agree),
       cmocka_unit_test(materials_mix),
       cmocka_unit_test(only_isotropic_moduli),
   };

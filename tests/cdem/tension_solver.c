@@ -129,7 +129,7 @@ static void sudden_pulse_spalls(void **state) {
 
 /* The worst that can happen to the step: a body held all around whose elements rattle without
  * damping, some half of them open at any time. With the automatic step its energy stays, within
- * what a random walk does to it; at twice that step it grows by half in as many steps. */
+ * what a random walk does to it; at twice that step it grew by more than half. */
 static void rattling_keeps_its_energy(void **state) {
   (void)state;
   rig r;
