@@ -55,7 +55,8 @@ typedef struct {
   double *u, *force, setup;
 } elastic;
 
-static void elastic_init(int32_t side, double distortion, int threads, elastic *e) {
+static void elastic_init(int32_t side, double distortion, int threads, bool no_tension,
+                         elastic *e) {
   cdem_fault fault = {0};
   const double density = 2700.0;
   memset(e, 0, sizeof *e);
@@ -70,7 +71,7 @@ static void elastic_init(int32_t side, double distortion, int threads, elastic *
   cdem_model_options model = {
       .mesh = &e->mesh, .groups = 1, .group = group, .materials = 1, .material = &e->material};
   give_up(cdem_model_init(&model, &e->model, &fault), &fault);
-  cdem_body_options body = {.density = &density, .threads = threads};
+  cdem_body_options body = {.density = &density, .no_tension = &no_tension, .threads = threads};
   double start = now();
   give_up(cdem_body_init(&e->model, &body, &e->body, &fault), &fault);
   e->setup = now() - start;
@@ -135,7 +136,7 @@ static void bench_elastic(int32_t side, const double bandwidth[3]) {
   for (int distorted = 1; distorted >= 0; distorted--)
     for (int threads = 1; threads <= 2; threads++) {
       elastic e;
-      elastic_init(side, distorted ? 0.2 : 0.0, threads, &e);
+      elastic_init(side, distorted ? 0.2 : 0.0, threads, false, &e);
       print_row(distorted ? "all-different" : "congruent", threads, &e, time_forces(&e, false),
                 bandwidth[threads]);
       if (threads == 1)
@@ -148,6 +149,28 @@ static void bench_elastic(int32_t side, const double bandwidth[3]) {
     }
 }
 
+/* What no tension costs: bodies that are pressed everywhere, open everywhere, and both by turns
+ * (the shaken state: every element has its own principal directions). */
+static void bench_tension(int32_t side) {
+  static const char *const state[] = {"pressed", "open", "mixed"};
+  static const double stretch[] = {-1e-3, 1e-3, 0.0}, shaken[] = {0.05, 0.05, 1.0};
+  printf("# hex8 without tension, one thread: ns an element-step, linear and without tension\n");
+  for (int distorted = 1; distorted >= 0; distorted--)
+    for (int k = 0; k < 3; k++) {
+      double seconds[2];
+      for (int none = 0; none < 2; none++) {
+        elastic e;
+        elastic_init(side, distorted ? 0.2 : 0.0, 1, none, &e);
+        for (int64_t i = 0; i < 3 * (int64_t)e.body.nodes; i++)
+          e.u[i] = shaken[k] * e.u[i] + stretch[k] * e.mesh.xyz[i];
+        seconds[none] = time_forces(&e, false) / e.model.cells;
+        elastic_release(&e);
+      }
+      printf("%-13s %-8s %9.1f %9.1f  ratio %.2f\n", distorted ? "all-different" : "congruent",
+             state[k], 1e9 * seconds[0], 1e9 * seconds[1], seconds[1] / seconds[0]);
+    }
+}
+
 int main(int argc, char **argv) {
   int32_t side = argc > 1 ? (int32_t)strtol(argv[1], NULL, 10) : 46;
   if (side < 1 || side > 400) {
@@ -156,5 +179,6 @@ int main(int argc, char **argv) {
   }
   double bandwidth[3] = {0.0, triad(1), triad(2)};
   bench_elastic(side, bandwidth);
+  bench_tension(side);
   return 0;
 }

@@ -44,12 +44,16 @@ typedef struct {
   int64_t seed;
 } cdem_case_mesh;
 
+/* the choices of materials.NAME.tension */
+typedef enum { CDEM_CASE_TENSION_ELASTIC, CDEM_CASE_TENSION_NONE } cdem_case_tension;
+
 /* materials: NAME: */
 typedef struct {
   char *name;
   cdem_material material;
   double density;         /* kg/m^3; NaN: none (static runs without gravity) */
   double micro_inertia;   /* m^2; NaN: cdem_material_micro_inertia */
+  int tension;            /* cdem_case_tension */
   cdem_case_texts groups; /* none: wherever no other material is */
 } cdem_case_material;
 

@@ -78,6 +78,27 @@ static cdem_status check_density(const cdem_case *cases, const cdem_case_materia
                                                             : "the run moves masses");
 }
 
+/* The law opens along principal directions that moduli and strain share; cubic ones of a plane are
+ * solved for. */
+static cdem_status check_tension(const cdem_case *cases, const cdem_case_material *material,
+                                 cdem_fault *fault) {
+  char key[CDEM_CASE_PATH];
+  cdem_material_model model = material->material.model;
+  if (material->tension != CDEM_CASE_TENSION_NONE)
+    return CDEM_OK;
+  cdem_case_named_key(key, "materials", material->name, "tension");
+  if (model == CDEM_ORTHOTROPIC || model == CDEM_ANISOTROPIC)
+    return cdem_case_fail(cases, key, CDEM_INPUT, fault,
+                          "a material without tension wants isotropic moduli, and '%s' is %s; give "
+                          "it 'young' and 'poisson', or 'tension: elastic'",
+                          material->name, cdem_material_model_get(model)->name);
+  if (cases->values.analysis == CDEM_ANALYSIS_STATIC)
+    return cdem_case_fail(cases, key, CDEM_INPUT, fault,
+                          "a static run is linear, and a material without tension is not; take "
+                          "'analysis: relaxation'");
+  return CDEM_OK;
+}
+
 /* One material may have no groups, and no group may have two materials. */
 static cdem_status check_groups(const cdem_case *cases, int64_t m, cdem_fault *fault) {
   const cdem_case_material *all = cases->values.materials.item, *material = &all[m];
@@ -109,6 +130,7 @@ cdem_status cdem_case_check_materials(const cdem_case *cases, cdem_fault *fault)
     const cdem_case_material *material = &v->materials.item[m];
     CDEM_TRY(check_density(cases, material, fault));
     CDEM_TRY(check_groups(cases, m, fault));
+    CDEM_TRY(check_tension(cases, material, fault));
     if (cdem_material_is_cosserat(&material->material) != cosserat)
       return cdem_case_fail(cases, cdem_case_named_key(key, "materials", material->name, "model"),
                             CDEM_INPUT, fault,

@@ -41,6 +41,8 @@ const cdem_case_section cdem_section_mesh =
 
 /* ---- materials ---- */
 
+static const char *const tensions[] = {"elastic", "none", NULL};
+
 #define MATERIAL(member) AT(cdem_case_material, member)
 static const cdem_case_key materials[] = {
     {MATERIAL(material), .kind = CDEM_KEY_MATERIAL, GRAIN, .help = "Elastic model and its moduli.",
@@ -54,6 +56,11 @@ static const cdem_case_key materials[] = {
                   "length",
      .help = "Cosserat materials: rotational inertia of a material point per mass.",
      .example = "4 mm2"},
+    {MATERIAL(tension), .kind = CDEM_KEY_CHOICE, .choice = tensions,
+     .help = "elastic: what the moduli give; none: no principal stress is tensile, elements open "
+             "and close without loss, as masonry or a coarse medium around loose grains does. "
+             "Wants isotropic moduli, or cosserat-cubic ones.",
+     .example = "none"},
     {MATERIAL(groups), .kind = CDEM_KEY_TEXTS, .otherwise = "wherever no other material is",
      .help = "Groups of elements that consist of this material.", .example = "[lower, upper]"},
 };

@@ -4,6 +4,7 @@
 #include "cdem/body_store.h"
 
 #include <inttypes.h>
+#include <limits.h>
 #include <math.h>
 #include <omp.h>
 #include <stdlib.h>
@@ -115,6 +116,14 @@ static cdem_status make_masses(const cdem_model *model, cdem_body *body, cdem_fa
   return CDEM_OK;
 }
 
+static int first_tensionless(const cdem_model *model, const bool *no_tension) {
+  int first = INT_MAX;
+  for (int32_t i = 0; i < model->cells && no_tension != NULL; i++)
+    if (no_tension[model->material[i]] && model->material[i] < first)
+      first = model->material[i];
+  return first < INT_MAX ? first : -1;
+}
+
 static cdem_status make_store(const cdem_model *model, const cdem_body_options *options,
                               cdem_body *body, cdem_fault *fault) {
   cdem_body_store *store = body->store;
@@ -130,6 +139,7 @@ static cdem_status make_store(const cdem_model *model, const cdem_body_options *
   free(template_of);
   CDEM_TRY(status);
   CDEM_TRY(cdem_body_fill(model, body->threads, store, fault));
+  CDEM_TRY(cdem_body_tension_fill(model, options->no_tension, store, fault));
   return cdem_body_link(model, body->threads, store, fault);
 }
 
@@ -143,6 +153,7 @@ cdem_status cdem_body_init(const cdem_model *model, const cdem_body_options *opt
                     .nodes = model->mesh->nodes,
                     .threads = options->threads > 0 ? options->threads : omp_get_max_threads(),
                     .linear = options->linear,
+                    .tensionless = first_tensionless(model, options->no_tension),
                     .inverted = -1};
   CDEM_NEW(made.store, 1, fault);
   cdem_status status = make_store(model, options, &made, fault);
@@ -174,6 +185,9 @@ void cdem_body_release(cdem_body *body) {
     free(store->buffer);
     free(store->tile_energy);
     free(store->law);
+    free(store->tension);
+    free(store->mean_start);
+    free(store->mean);
     free(store->volume);
     free(store->density);
     free(store->micro_inertia);
@@ -185,7 +199,7 @@ void cdem_body_release(cdem_body *body) {
 int64_t cdem_body_traffic(const cdem_body *body) {
   const cdem_body_store *store = body->store;
   int64_t entries = store->entry_start[store->tile_node[store->tiles]];
-  return store->own_doubles * (int64_t)sizeof(double) +
+  return (store->own_doubles + store->own_means) * (int64_t)sizeof(double) +
          store->ids * CDEM_LANES * (int64_t)sizeof(int32_t) + entries * (int64_t)sizeof(uint16_t) +
          2 * (int64_t)body->nodes * body->dofs * (int64_t)sizeof(double);
 }

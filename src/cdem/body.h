@@ -12,6 +12,12 @@
  * T_ij is the rigid transport of a Cosserat node (identity otherwise); its rotations enter as omega
  * minus the angle of R.
  *
+ * A material may carry no tension. Each of its elements then opens by the uniform strain a, without
+ * negative eigenvalue, that leaves its springs the least energy: (1) and (2) hold with d_i - a X_i
+ * in place of d_i, the terms of dR/dx too, and f is still the exact gradient. No principal stress
+ * of the element's mean is then tensile; the rest (hourglass modes; the skew stress and the couples
+ * of a Cosserat element) stays linear. There is no history. See tension_law.h.
+ *
  * Unknowns: u [nodes][dofs], node-major, ids of the model's mesh; dofs = 2 (ux uy), 3 (ux uy uz) or
  * 3 (ux uy omega). Displacements, not positions, are kept: a small motion of a body far from the
  * origin loses no digits.
@@ -34,9 +40,11 @@ typedef struct {
   const double *density;       /* [model->materials] kg/m^3 */
   const double *micro_inertia; /* [model->materials] m^2, Cosserat: inertia of a node = this times
                                   its mass; NULL: cdem_material_micro_inertia */
-  bool linear;                 /* no rotation: small displacements (tests, static comparison) */
-  bool separate;               /* congruent elements share nothing (tests, benchmark) */
-  int threads;                 /* 0: OpenMP's default */
+  const bool *no_tension; /* [model->materials] carries no tension; NULL: all do. CDEM_INPUT for
+                             one that is not isotropic (Cosserat: cubic is good too) */
+  bool linear;            /* no rotation: small displacements (tests, static comparison) */
+  bool separate;          /* congruent elements share nothing (tests, benchmark) */
+  int threads;            /* 0: OpenMP's default */
 } cdem_body_options;
 
 typedef struct cdem_body_store cdem_body_store; /* private: templates, batches, gather lists */
@@ -52,6 +60,7 @@ typedef struct {
                        -1 when there is none */
   int threads;
   bool linear;
+  int tensionless; /* the first material of cells that carries no tension, -1 when there is none */
   cdem_body_store *store;
 } cdem_body;
 
@@ -79,7 +88,8 @@ double cdem_body_energy(const cdem_body *body, const double *u, double by_class[
 /* Fields of the cells of the model, any may be NULL:
  *   stress, strain [cells][6] xx yy zz yz xz xy, global axes, at the element's centre: Cauchy
  *     stress (tensile positive, Pa; the small-strain law in the corotated frame) and strain
- *     (engineering shears); plane stress fills strain zz, plane strain stress zz
+ *     (engineering shears); plane stress fills strain zz, plane strain stress zz. Of a material
+ *     without tension: the stress of what is not opening, the strain with it
  *   energy [cells][CDEM_CLASSES] J    pair_force [cells][CDEM_CLASSES] sum over the pairs of a
  *     class of |S_ij (d_j - T d_i)|, N (rotations left out)   rotation [cells][9] R row-major */
 typedef struct {
@@ -96,8 +106,9 @@ void cdem_body_node_stress(const cdem_body *body, const double *u, double *stres
 
 /* An upper bound of the largest eigenfrequency, rad/s, of body plus lumped mass: the largest over
  * the elements (Irons), each from a high power of its matrix (1.25 % above at most), at the
- * undeformed state.
- * *cell: where (model cell index). */
+ * undeformed state. Elements without tension are no stiffer than linear ones in any state, but
+ * count twice, as contacts do: what opens and closes between steps must not be stepped over. *cell:
+ * where (model cell index). */
 double cdem_body_frequency(const cdem_body *body, int32_t *cell);
 
 /* Safe row sums: stiffness [nodes] N/m, for each node the sum over its elements of the largest

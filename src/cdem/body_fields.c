@@ -89,8 +89,8 @@ cdem_status cdem_body_law_build(const cdem_model *model, int m, cdem_body_law *l
   return CDEM_OK;
 }
 
-/* Local strain [7] from gradients [nodes][3] and values [nodes] of the shape functions at a point:
- * Voigt with engineering shears; [6]: see cosserat_law. */
+/* Local strain [7], less the opening, from gradients [nodes][3] and values [nodes] of the shape
+ * functions at a point: Voigt with engineering shears; [6]: see cosserat_law. */
 static void strain_at(const cdem_body_element *element, const double *shape,
                       const double (*gradient)[3], double strain[7]) {
   const cdem_body_kind *kind = element->record.kind;
@@ -120,15 +120,18 @@ static void turn_tensor(const double r[9], double shear, double v[6]) {
   }
 }
 
-/* Global stress [6], and strain [6] where not NULL, from a local strain [7]. */
-static void apply_law(const cdem_body_law *law, const double rotation[9], const double local[7],
-                      double *stress, double *strain) {
+/* Global stress [6], and strain [6] where not NULL, from a local strain [7]; what has opened is
+ * strain without stress. */
+static void apply_law(const cdem_body_law *law, const cdem_body_element *element,
+                      const double local[7], double *stress, double *strain) {
+  const double *rotation = element->rotation;
   double s[6] = {0}, e[6] = {0};
   for (int i = 0; i < 6; i++) {
     for (int j = 0; j < 7; j++)
       s[i] += law->stress[i][j] * local[j];
     for (int j = 0; j < 6; j++)
       e[i] += law->strain[i][j] * local[j];
+    e[i] += element->opening[i];
   }
   turn_tensor(rotation, 1.0, s);
   turn_tensor(rotation, 0.5, e);
@@ -182,7 +185,7 @@ void cdem_body_cell_fields(const cdem_body *body, const double *u, const cdem_bo
     const cdem_body_kind *kind = element.record.kind;
     if (fields->stress != NULL || fields->strain != NULL) {
       strain_at(&element, kind->shape, (const double(*)[3])element.gradient, strain);
-      apply_law(&body->store->law[model->material[cell]], element.rotation, strain,
+      apply_law(&body->store->law[model->material[cell]], &element, strain,
                 fields->stress != NULL ? fields->stress + 6 * (int64_t)cell : NULL,
                 fields->strain != NULL ? fields->strain + 6 * (int64_t)cell : NULL);
     }
@@ -227,7 +230,7 @@ void cdem_body_node_stress(const cdem_body *body, const double *u, double *stres
                        gradient);
       shape[a] = 1.0;
       strain_at(&element, shape, (const double(*)[3])gradient, strain);
-      apply_law(&body->store->law[model->material[cell]], element.rotation, strain, here, NULL);
+      apply_law(&body->store->law[model->material[cell]], &element, strain, here, NULL);
       for (int c = 0; c < 6; c++)
         stress[6 * (int64_t)element.node[a] + c] += share[a] * here[c];
     }

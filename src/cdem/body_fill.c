@@ -88,3 +88,30 @@ void cdem_body_shares(const cdem_model *model, int32_t cell, double share[CDEM_B
       share[a] += weight * t->n[t->nodes * q + a];
   }
 }
+
+double cdem_body_mean_gradients(const cdem_model *model, int32_t cell, double (*mean)[3]) {
+  const cdem_tabulation *t = &model->kinds_of[model->kind[cell]].tabulation;
+  double xyz[CDEM_SHAPE_MAX_NODES][3], volume = 0.0;
+  cdem_model_coordinates(model, cell, xyz);
+  double thickness = model->dimension == 2 ? model->section.thickness : 1.0;
+  memset(mean, 0, (size_t)t->nodes * sizeof *mean);
+  for (int q = 0; q < t->points; q++) {
+    const double *dn = t->dn + (ptrdiff_t)3 * t->nodes * q;
+    double j[9] = {0}, inverse[9];
+    if (model->dimension == 2)
+      j[8] = 1.0;
+    for (int a = 0; a < t->nodes; a++)
+      for (int i = 0; i < model->dimension; i++)
+        for (int k = 0; k < model->dimension; k++)
+          j[3 * i + k] += xyz[a][i] * dn[3 * a + k];
+    double weight = thickness * t->weight[q] * cdem_inverse3(j, inverse);
+    volume += weight;
+    for (int a = 0; a < t->nodes; a++)
+      for (int i = 0; i < model->dimension; i++)
+        for (int k = 0; k < model->dimension; k++)
+          mean[a][i] += weight * dn[3 * a + k] * inverse[3 * k + i];
+  }
+  for (int i = 0; i < 3 * t->nodes; i++)
+    mean[i / 3][i % 3] /= volume;
+  return volume;
+}

@@ -5,18 +5,6 @@
 #include <omp.h>
 #include <string.h>
 
-static cdem_body_task task_of(const cdem_body *body, const double *u, int64_t n) {
-  const cdem_body_store *store = body->store;
-  const cdem_body_batch *batch = &store->batch[n];
-  return (cdem_body_task){.kind = &store->kind[batch->kind],
-                          .record = store->data + batch->record,
-                          .id = store->id + (int64_t)batch->id * CDEM_LANES,
-                          .u = u,
-                          .shared = batch->shared,
-                          .last_node = batch->last_node,
-                          .linear = body->linear};
-}
-
 /* The lowest of `worst` and the batch's cells whose determinant is not positive. */
 static int32_t note_inverted(const cdem_body_store *store, int64_t n, const double *determinant,
                              int32_t worst) {
@@ -33,10 +21,12 @@ static int32_t tile_forces(const cdem_body *body, const cdem_body_kernels *kerne
   const cdem_body_store *store = body->store;
   int32_t worst = INT32_MAX;
   for (int64_t n = store->tile_batch[t]; n < store->tile_batch[t + 1]; n++) {
-    cdem_body_task task = task_of(body, u, n);
+    cdem_body_task task = cdem_body_task_of(body, u, n);
     double determinant[CDEM_LANES];
-    kernels->forces(&task, buffer + (ptrdiff_t)store->batch[n].row * body->dofs * CDEM_LANES,
-                    determinant);
+    double *of_batch = buffer + (ptrdiff_t)store->batch[n].row * body->dofs * CDEM_LANES;
+    kernels->forces(&task, of_batch, determinant);
+    if (store->tension != NULL)
+      cdem_body_tension_forces(body, kernels, &task, n, of_batch);
     bool positive = true;
     for (int lane = 0; lane < CDEM_LANES; lane++)
       positive = positive && determinant[lane] > 0.0;
@@ -129,7 +119,7 @@ int64_t cdem_body_inverted(const cdem_body *body, const double *u) {
     reduction(min                                                                                  \
               : worst) if (store->tiles > 1)
   for (int64_t n = 0; n < store->batches; n++) {
-    cdem_body_task task = task_of(body, u, n);
+    cdem_body_task task = cdem_body_task_of(body, u, n);
     double determinant[CDEM_LANES];
     kernels->determinants(&task, determinant);
     worst = note_inverted(store, n, determinant, worst);
@@ -144,7 +134,11 @@ double cdem_body_energy(const cdem_body *body, const double *u, double by_class[
   for (int32_t t = 0; t < store->tiles; t++) {
     double sum[CDEM_CLASSES] = {0}, energy[CDEM_CLASSES * CDEM_LANES];
     for (int64_t n = store->tile_batch[t]; n < store->tile_batch[t + 1]; n++) {
-      cdem_body_task task = task_of(body, u, n);
+      cdem_body_task task = cdem_body_task_of(body, u, n);
+      double opening[6 * CDEM_LANES];
+      cdem_body_frames frames;
+      if (store->tension != NULL && cdem_body_openings(body, kernels, &task, n, &frames, opening))
+        task.opening = opening;
       kernels->energies(&task, energy);
       for (int c = 0; c < CDEM_CLASSES; c++)
         for (int lane = 0; lane < store->batch[n].cells; lane++)
@@ -166,7 +160,7 @@ static void batch_stress(const cdem_body *body, const cdem_body_kernels *kernels
                          int64_t n, double *stress) {
   const cdem_body_store *store = body->store;
   const int32_t *cell = store->cell + n * CDEM_LANES;
-  cdem_body_task task = task_of(body, u, n);
+  cdem_body_task task = cdem_body_task_of(body, u, n);
   int cells = store->batch[n].cells;
   unsigned left = (1U << cells) - 1U;
   for (int first = 0; first < cells; first++) {
@@ -183,6 +177,8 @@ static void batch_stress(const cdem_body *body, const cdem_body_kernels *kernels
         stress[6 * (int64_t)cell[lane] + v] = out[CDEM_LANES * v + lane];
     }
   }
+  if (store->tension != NULL)
+    cdem_body_tension_stress(body, kernels, &task, n, stress);
 }
 
 void cdem_body_cell_stress(const cdem_body *body, const double *u, double *stress) {

@@ -9,6 +9,13 @@
 
 enum { MAX_SIZE = CDEM_BODY_NODES * CDEM_MAX_DOFS };
 
+/* Elements without tension open and close between steps. Their curvature never exceeds that of the
+ * linear element, so that no single state is unstable; but a step that ends deep in the spring on
+ * the way in and leaves it on the way out gains energy, and undamped bodies that rattle are pumped
+ * up near the linear limit (docs/rooms/cdem-body.md has numbers). As of contacts (solver_limit.c),
+ * four times the square of their frequency is taken: half the step. */
+enum { UNILATERAL = 4 };
+
 /* Rounding of the squarings, generously. */
 #define ROUNDING 1e-12
 
@@ -93,6 +100,8 @@ double cdem_body_frequency(const cdem_body *body, int32_t *cell) {
 #pragma omp critical(cdem_body_frequency)
     for (int lane = 0; lane < store->batch[n].cells; lane++) {
       int32_t here = store->cell[n * CDEM_LANES + lane];
+      if (cdem_body_is_tensionless(body->model, store, here))
+        bound[lane] *= UNILATERAL;
       if (bound[lane] > largest || (bound[lane] == largest && here < where)) {
         largest = bound[lane];
         where = here;

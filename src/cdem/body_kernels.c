@@ -38,12 +38,13 @@ enum {
 #include "cdem/body_kernels_width.h"
 
 const cdem_body_kernels *cdem_body_kernels_of_width(int width) {
-  static const cdem_body_kernels two = {forces_2, energies_2, stresses_2, determinants_2, bounds_2};
+  static const cdem_body_kernels two = {forces_2, energies_2, stresses_2, determinants_2,
+                                        frames_2, opens_2,    releases_2, bounds_2};
 #ifdef WIDE_VECTORS
   static const cdem_body_kernels eight = {forces_8, energies_8, stresses_8, determinants_8,
-                                          bounds_8};
+                                          frames_8, opens_8,    releases_8, bounds_8};
   static const cdem_body_kernels four = {forces_4, energies_4, stresses_4, determinants_4,
-                                         bounds_4};
+                                         frames_4, opens_4,    releases_4, bounds_4};
   if (width == 8)
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
                    __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&

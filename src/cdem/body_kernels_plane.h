@@ -179,6 +179,7 @@ INLINE void plane_energy(int nodes, bool cosserat, bool shared, const cdem_body_
     if (cosserat)
       branch(nodes, h, w);
   }
+  close_up(nodes, 2, shared, place, task, part, w);
   for (int i = 0; i < nodes; i++)
     for (int c = 0; c < 2; c++)
       mean[c] += w[i][c] * (1.0 / nodes);

@@ -137,6 +137,7 @@ INLINE void solid_energy(int nodes, bool shared, const cdem_body_task *task, int
     polar(h, e, inverse);
     local3(nodes, shared, record + kind->place * step, e, w);
   }
+  close_up(nodes, 3, shared, record + kind->place * step, task, part, w);
   for (int i = 0; i < nodes; i++)
     for (int c = 0; c < 3; c++)
       mean[c] += w[i][c] * (1.0 / nodes);

@@ -42,8 +42,21 @@
 #define solid_stress  KERNEL(solid_stress)
 #define plane_stress  KERNEL(plane_stress)
 #define elongations   KERNEL(elongations)
-#define square        KERNEL(square)
-#define INLINE        CDEM_ALWAYS_INLINE TARGET
+#define close_up      KERNEL(close_up)
+#define mean_gradient KERNEL(mean_gradient)
+#define solid_frames  KERNEL(solid_frames)
+#define plane_frames  KERNEL(plane_frames)
+#define release_all   KERNEL(release_all)
+#define any_lane      KERNEL(any_lane)
+#define open_planes   KERNEL(open_planes)
+#define turn_axes     KERNEL(turn_axes)
+#define order_axes    KERNEL(order_axes)
+#define definite      KERNEL(definite)
+#define open_solids   KERNEL(open_solids)
+
+#define open_principal KERNEL(open_principal)
+#define square         KERNEL(square)
+#define INLINE         CDEM_ALWAYS_INLINE TARGET
 
 enum { KERNEL(PARTS) = CDEM_LANES / WIDTH };
 #define PARTS KERNEL(PARTS)
@@ -126,11 +139,27 @@ INLINE void relative(int nodes, int dofs, int moving, const cdem_body_task *task
   }
 }
 
+/* Takes an opening a (Voigt [6][CDEM_LANES]) out of local displacements: d_i -= a X_i. */
+INLINE void close_up(int nodes, int dimension, bool shared, const double *place,
+                     const cdem_body_task *task, int part, lanes (*d)[3]) {
+  static const int8_t at[9] = {0, 5, 4, 5, 1, 3, 4, 3, 2};
+  if (task->opening == NULL)
+    return;
+  const double *opening = task->opening + part * WIDTH;
+  for (int i = 1; i < nodes; i++)
+    for (int r = 0; r < dimension; r++)
+      for (int c = 0; c < dimension; c++)
+        d[i][r] -= (r == c ? 1.0 : 0.5) *
+                   (lanes)(*(const lanes_at *)(opening + CDEM_LANES * at[3 * r + c])) *
+                   ENTRY(place, dimension * (i - 1) + c);
+}
+
 #include "cdem/body_kernels_polar.h"
 #include "cdem/body_kernels_solid.h"
 /* The plane forms stand after the solid ones. */
 #include "cdem/body_kernels_plane.h"
 #include "cdem/body_kernels_stress.h"
+#include "cdem/body_kernels_tension.h"
 
 #define EACH_PART for (int part = 0; part < PARTS; part++)
 
@@ -221,6 +250,81 @@ TARGET static void KERNEL(determinants)(const cdem_body_task *task, double *dete
     *(lanes_at *)(determinant + part * WIDTH) = det;
   }
 }
+
+/* The number of nodes is a constant of the compiler in both. */
+#define EACH_KIND(call_solid, call_plane)                                                          \
+  switch (16 * (int)task->kind->formulation + task->kind->nodes) {                                 \
+  case 16 * CDEM_SOLID + 4:                                                                        \
+    call_solid(4);                                                                                 \
+    break;                                                                                         \
+  case 16 * CDEM_SOLID + 5:                                                                        \
+    call_solid(5);                                                                                 \
+    break;                                                                                         \
+  case 16 * CDEM_SOLID + 6:                                                                        \
+    call_solid(6);                                                                                 \
+    break;                                                                                         \
+  case 16 * CDEM_SOLID + 8:                                                                        \
+    call_solid(8);                                                                                 \
+    break;                                                                                         \
+  case 16 * CDEM_PLANE + 3:                                                                        \
+    call_plane(3, 2);                                                                              \
+    break;                                                                                         \
+  case 16 * CDEM_PLANE + 4:                                                                        \
+    call_plane(4, 2);                                                                              \
+    break;                                                                                         \
+  case 16 * CDEM_PLANE_COSSERAT + 3:                                                               \
+    call_plane(3, 3);                                                                              \
+    break;                                                                                         \
+  case 16 * CDEM_PLANE_COSSERAT + 4:                                                               \
+    call_plane(4, 3);                                                                              \
+    break;                                                                                         \
+  }
+
+TARGET static void KERNEL(frames)(const cdem_body_task *task, const double *mean,
+                                  cdem_body_frames *frames){
+#define SOLID(nodes)       solid_frames(nodes, task, mean, part, frames)
+#define PLANE(nodes, dofs) plane_frames(nodes, dofs, task, mean, part, frames)
+    EACH_PART EACH_KIND(SOLID, PLANE)
+#undef PLANE
+#undef SOLID
+}
+
+/* Openings of isotropic cells, [6][CDEM_LANES]; none where `active` is 0. */
+TARGET static bool KERNEL(opens)(const cdem_body_isotropic *law, const cdem_body_frames *frames,
+                                 double *opening) {
+  int64_t any = 0;
+  EACH_PART {
+    lanes b[9], a[6] = {0}, zero = {0};
+    for (int k = 0; k < 9; k++)
+      b[k] = *(const lanes_at *)(frames->b[k] + part * WIDTH);
+    const lanes strain[6] = {b[0], b[4], b[8], b[5] + b[7], b[2] + b[6], b[1] + b[3]};
+    lanes first = *(const lanes_at *)(law->first + part * WIDTH);
+    lanes second = *(const lanes_at *)(law->second + part * WIDTH);
+    lane_mask active = *(const lanes_at *)(law->active + part * WIDTH) > zero;
+    if (law->solid)
+      open_solids(&first, &second, &active, strain, a);
+    else
+      open_planes(&first, &second, strain, a);
+    lane_mask opens = active & ((a[0] + a[1] + a[2]) > zero);
+    any |= any_lane(&opens);
+    for (int v = 0; v < 6; v++) {
+      lanes own;
+      select_lanes(&opens, &a[v], &zero, &own);
+      *(lanes_at *)(opening + CDEM_LANES * v + part * WIDTH) = own;
+    }
+  }
+  return any != 0;
+}
+
+TARGET static void KERNEL(releases)(const cdem_body_task *task, const double *mean,
+                                    const cdem_body_pulls *pulls, double *force) {
+#define SOLID(nodes)       release_all(nodes, 3, 3, task, mean, part, pulls, force)
+#define PLANE(nodes, dofs) release_all(nodes, 2, dofs, task, mean, part, pulls, force)
+  EACH_PART EACH_KIND(SOLID, PLANE)
+#undef PLANE
+#undef SOLID
+}
+#undef EACH_KIND
 
 /* b = a a for symmetric a [size][size], entries PARTS vectors apart; returns |b|^2. */
 INLINE void square(int size, const lanes_at *a, lanes_at *b, lanes *norm2) {
@@ -317,6 +421,18 @@ TARGET static void KERNEL(bounds)(int size, double *a, double *work, double *bou
 #undef solid_stress
 #undef plane_stress
 #undef elongations
+#undef close_up
+#undef mean_gradient
+#undef solid_frames
+#undef plane_frames
+#undef release_all
+#undef any_lane
+#undef open_planes
+#undef turn_axes
+#undef order_axes
+#undef definite
+#undef open_solids
+#undef open_principal
 #undef square
 #undef INLINE
 #undef PARTS

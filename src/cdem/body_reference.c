@@ -53,6 +53,31 @@ static void geometry(const cdem_body *body, int32_t cell, cdem_body_element *ele
     }
 }
 
+/* Places y, and the opening of a material without tension, which then leaves d. */
+static void open_up(const cdem_body *body, int32_t cell, cdem_body_element *element) {
+  const cdem_body_kind *kind = element->record.kind;
+  double mean[CDEM_BODY_NODES][3], h[9] = {0}, *a = element->opening;
+  memset(a, 0, 6 * sizeof *a);
+  for (int i = 0; i < kind->nodes; i++)
+    for (int c = 0; c < 3; c++)
+      element->y[i][c] = c < kind->dimension ? element->x[i][c] + element->d[i][c] : 0.0;
+  if (!cdem_body_is_tensionless(body->model, body->store, cell))
+    return;
+  cdem_body_mean_gradients(body->model, cell, mean);
+  for (int i = 0; i < kind->nodes; i++)
+    for (int r = 0; r < kind->dimension; r++)
+      for (int c = 0; c < kind->dimension; c++)
+        h[3 * r + c] += element->d[i][r] * mean[i][c];
+  const double strain[6] = {h[0], h[4], h[8], h[5] + h[7], h[2] + h[6], h[1] + h[3]};
+  if (!cdem_tension_open(&body->store->tension[body->model->material[cell]], strain, a))
+    return;
+  const double m[9] = {a[0],     a[5] / 2, a[4] / 2, a[5] / 2, a[1],
+                       a[3] / 2, a[4] / 2, a[3] / 2, a[2]};
+  for (int i = 0; i < kind->nodes; i++)
+    for (int c = 0; c < kind->dimension; c++)
+      element->d[i][c] -= cdem_dot3(m + 3 * c, element->x[i]);
+}
+
 /* Cosserat rotations less the angle of R, on the branch nearest to their mean. */
 static void take_angle(const double rotation[9], int nodes, double (*d)[3]) {
   double mean = 0.0, angle = atan2(rotation[3] - rotation[1], rotation[0] + rotation[4]);
@@ -110,6 +135,7 @@ void cdem_body_element_at(const cdem_body *body, const double *u, int32_t cell,
       take_angle(r, kind->nodes, element->d);
     }
   }
+  open_up(body, cell, element);
 }
 
 void cdem_body_spring(const cdem_body_element *element, int p, double s[9]) {
@@ -154,12 +180,10 @@ static void add_rotation_terms(const cdem_body_element *element, double (*f)[3])
   double moment[3] = {0}, k[9], inverse[9], h[3];
   const double *u = element->stretch;
   for (int a = 0; a < kind->nodes; a++) {
-    double y[3], force[3], part[3];
-    for (int c = 0; c < 3; c++) {
-      y[c] = c < kind->dimension ? element->x[a][c] + element->d[a][c] : 0.0;
+    double force[3], part[3];
+    for (int c = 0; c < 3; c++)
       force[c] = c < kind->dimension ? f[a][c] : 0.0;
-    }
-    cdem_cross3(y, force, part);
+    cdem_cross3(element->y[a], force, part);
     for (int c = 0; c < 3; c++)
       moment[c] += part[c];
     if (kind->formulation == CDEM_PLANE_COSSERAT)

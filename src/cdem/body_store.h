@@ -16,6 +16,7 @@
 
 #include "base/mat3.h"
 #include "cdem/body.h"
+#include "cdem/tension_law.h"
 
 enum { CDEM_BODY_TILE = 512, CDEM_BODY_NODES = 8, CDEM_BODY_PAIRS = 28 };
 
@@ -95,8 +96,13 @@ struct cdem_body_store {
   double *tile_energy;             /* [tiles][CDEM_CLASSES] */
   double *density, *micro_inertia; /* [model materials] */
   cdem_body_law *law;              /* [model materials], of those in use */
-  double *volume;                  /* [nodes] sum of the shares, m^3 */
-  int64_t bytes;                   /* held */
+  cdem_tension_law *tension;       /* [model materials], NULL: all carry tension */
+  int64_t *mean_start;             /* [batches] offset into mean, -1: all cells carry tension */
+  double *mean;      /* of a batch: volume, then mean gradients [nodes][dimension], side
+                        by side as in its record */
+  int64_t own_means; /* doubles of own batches in it */
+  double *volume;    /* [nodes] sum of the shares, m^3 */
+  int64_t bytes;     /* held */
 };
 
 /* One record: entry e stands at data[e * stride]. */
@@ -129,6 +135,16 @@ cdem_status cdem_body_fill(const cdem_model *model, int threads, cdem_body_store
 cdem_status cdem_body_link(const cdem_model *model, int threads, cdem_body_store *store,
                            cdem_fault *fault);
 
+static inline bool cdem_body_is_tensionless(const cdem_model *model, const cdem_body_store *store,
+                                            int32_t cell) {
+  return store->tension != NULL &&
+         store->tension[model->material[cell]].kind != CDEM_TENSION_ELASTIC;
+}
+
+/* Laws and mean gradients of materials without tension: of cells that do not carry it. */
+cdem_status cdem_body_tension_fill(const cdem_model *model, const bool *no_tension,
+                                   cdem_body_store *store, cdem_fault *fault);
+
 /* Allocates and counts the bytes held. */
 #define CDEM_BODY_NEW(store, pointer, count, fault)                                                \
   do {                                                                                             \
@@ -138,6 +154,10 @@ cdem_status cdem_body_link(const cdem_model *model, int threads, cdem_body_store
 
 /* Integrals of the shape functions over a cell: share [nodes], m^3 (thickness included). */
 void cdem_body_shares(const cdem_model *model, int32_t cell, double share[CDEM_BODY_NODES]);
+/* Means of the gradients of the shape functions over a cell, by the rule of its stiffness, and its
+ * volume, m^3. */
+double cdem_body_mean_gradients(const cdem_model *model, int32_t cell,
+                                double (*mean)[3]); /* [nodes] */
 
 /* The state of one element, for the paths where speed is no matter. */
 typedef struct {
@@ -147,7 +167,10 @@ typedef struct {
   double gradient[CDEM_BODY_NODES][3]; /* of the shape functions at the centre */
   double rotation[9], stretch[9];      /* R and U = sym(R^T F); identities when linear */
   double determinant;                  /* of F */
-  double d[CDEM_BODY_NODES][3]; /* local displacements; Cosserat: third is omega less the angle */
+  double opening[6];                   /* local, Voigt; 0 where tension is carried */
+  double y[CDEM_BODY_NODES][3];        /* local places */
+  double d[CDEM_BODY_NODES][3];        /* local displacements less the opening: what springs feel;
+                                          Cosserat: third is omega less the angle */
 } cdem_body_element;
 void cdem_body_element_at(const cdem_body *body, const double *u, int32_t cell,
                           cdem_body_element *element);
@@ -160,10 +183,42 @@ void cdem_body_elongation(const cdem_body_element *element, int i, int j, double
 typedef struct {
   const cdem_body_kind *kind;
   const double *record;
-  const int32_t *id; /* [nodes][CDEM_LANES] */
-  const double *u;   /* [mesh nodes][dofs] */
+  const int32_t *id;     /* [nodes][CDEM_LANES] */
+  const double *u;       /* [mesh nodes][dofs] */
+  const double *opening; /* [6][CDEM_LANES] Voigt; NULL: none. Energies heed it */
   bool shared, last_node, linear;
 } cdem_body_task;
+
+static inline cdem_body_task cdem_body_task_of(const cdem_body *body, const double *u, int64_t n) {
+  const cdem_body_store *store = body->store;
+  const cdem_body_batch *batch = &store->batch[n];
+  return (cdem_body_task){.kind = &store->kind[batch->kind],
+                          .record = store->data + batch->record,
+                          .id = store->id + (int64_t)batch->id * CDEM_LANES,
+                          .u = u,
+                          .shared = batch->shared,
+                          .last_node = batch->last_node,
+                          .linear = body->linear};
+}
+
+/* Where the elements of a batch stand: E = R - I, the inverse of tr(U) I - U (Voigt), and
+ * b = R^T F_m - I with F_m the mean of F. Row-major; of a plane as of a solid that keeps its z. */
+typedef struct {
+  double e[9][CDEM_LANES], inverse[6][CDEM_LANES], b[9][CDEM_LANES];
+} cdem_body_frames;
+
+/* Isotropic laws without tension of a batch. solid: lambda and mu; plane: D11 + D12 and D11 - D12.
+ * active: 1, or 0 for a cell that carries tension or is none. */
+typedef struct {
+  bool solid;
+  double first[CDEM_LANES], second[CDEM_LANES], active[CDEM_LANES];
+} cdem_body_isotropic;
+
+/* What openings add to the forces: pull m_i - turn g_i with m_i the mean gradients of the shape
+ * functions and g_i those at the centre; global axes. */
+typedef struct {
+  double pull[9][CDEM_LANES], turn[9][CDEM_LANES];
+} cdem_body_pulls;
 
 /* force [nodes][dofs][CDEM_LANES]; energy [CDEM_CLASSES][CDEM_LANES]; stress [6][CDEM_LANES] by one
  * law (cdem_body_law) for all lanes; determinant of F [CDEM_LANES]. */
@@ -172,6 +227,12 @@ typedef struct {
   void (*energies)(const cdem_body_task *task, double *energy);
   void (*stresses)(const cdem_body_task *task, const double (*law)[7], double *stress);
   void (*determinants)(const cdem_body_task *task, double *determinant);
+  /* mean: of the batch. The second tells whether anything opens; the third adds to the forces of
+   * the first of all these functions. */
+  void (*frames)(const cdem_body_task *task, const double *mean, cdem_body_frames *frames);
+  bool (*opens)(const cdem_body_isotropic *law, const cdem_body_frames *frames, double *opening);
+  void (*releases)(const cdem_body_task *task, const double *mean, const cdem_body_pulls *pulls,
+                   double *force);
   /* a [size][size][CDEM_LANES] symmetric; bound [CDEM_LANES] of its largest eigenvalue; work as
    * long as a. */
   void (*bounds)(int size, double *a, double *work, double *bound);
@@ -179,5 +240,16 @@ typedef struct {
 /* For vectors of 8, 4 or 2 doubles, NULL where there are none so wide; and the widest there is. */
 const cdem_body_kernels *cdem_body_kernels_of_width(int width);
 const cdem_body_kernels *cdem_body_kernels_widest(void);
+
+/* Openings [6][CDEM_LANES] of a batch that has cells without tension; false when nothing opens. */
+bool cdem_body_openings(const cdem_body *body, const cdem_body_kernels *kernels,
+                        const cdem_body_task *task, int64_t n, cdem_body_frames *frames,
+                        double opening[6 * CDEM_LANES]);
+/* Takes the tension out of the forces of a batch. */
+void cdem_body_tension_forces(const cdem_body *body, const cdem_body_kernels *kernels,
+                              const cdem_body_task *task, int64_t n, double *force);
+/* Takes the tension out of the stress of the cells of a batch. */
+void cdem_body_tension_stress(const cdem_body *body, const cdem_body_kernels *kernels,
+                              const cdem_body_task *task, int64_t n, double *stress);
 
 #endif

@@ -150,7 +150,8 @@ double cdem_solver_limit(const cdem_solver *solver, char limiter[64]);
 
 /* Static solution of the linear network (intact interfaces as springs, tied nodes as one) for the
  * loads and supports at `time`, by CHOLMOD; u is overwritten. CDEM_INPUT: not enough supports
- * (names the rigid motions that are free), a plate or contact (static runs know neither). */
+ * (names the rigid motions that are free), a plate or contact (static runs know neither), a
+ * material without tension (it is not linear). */
 cdem_status cdem_solver_static(cdem_solver *solver, double time, cdem_fault *fault);
 
 /* Ratio of the largest unbalanced nodal force (free components) to the mean nodal force (mean over

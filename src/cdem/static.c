@@ -307,6 +307,11 @@ cdem_status cdem_solver_static(cdem_solver *solver, double time, cdem_fault *fau
                "relax the body");
   CDEM_REQUIRE(s->options.contact == NULL, fault, CDEM_INPUT,
                "a static solution knows no contact; leave it out, or relax the body");
+  int tensionless = s->options.body->tensionless;
+  CDEM_REQUIRE(tensionless < 0, fault, CDEM_INPUT,
+               "material '%s' carries no tension and so is not linear, but a static solution is; "
+               "relax the body (analysis: relaxation)",
+               s->options.body->model->materials_of[tensionless].name);
   statics t = {.solver = solver, .fault = fault};
   cdem_status status = solve(&t, time);
   statics_release(&t);

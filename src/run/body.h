@@ -51,6 +51,7 @@ typedef struct {
   cdem_section section;
   double *density;         /* [materials] kg/m^3 */
   double *micro_inertia;   /* [materials] m^2 */
+  bool *no_tension;        /* [materials] */
   cdem_run_moduli *moduli; /* [materials] */
   int32_t *model_of;       /* [blocks.mesh.cells] index into the model, -1 */
   double *volume;          /* [model.cells] m^3 */

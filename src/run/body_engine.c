@@ -81,6 +81,7 @@ static void release(cdem_run_setup *run) {
   cdem_mesh_release(&body->mesh);
   free(body->density);
   free(body->micro_inertia);
+  free(body->no_tension);
   free(body->moduli);
   free(body->model_of);
   free(body->volume);

@@ -208,6 +208,7 @@ static cdem_status material_numbers(cdem_run_body *setup, cdem_fault *fault) {
        needed = values->analysis == CDEM_ANALYSIS_DYNAMIC || gravity;
   CDEM_NEW(setup->density, materials, fault);
   CDEM_NEW(setup->micro_inertia, materials, fault);
+  CDEM_NEW(setup->no_tension, materials, fault);
   CDEM_NEW(setup->moduli, materials, fault);
   for (int m = 0; m < materials; m++) {
     const cdem_case_material *material = &values->materials.item[m];
@@ -218,6 +219,7 @@ static cdem_status material_numbers(cdem_run_body *setup, cdem_fault *fault) {
     setup->micro_inertia[m] = isnan(material->micro_inertia)
                                   ? cdem_material_micro_inertia(&material->material)
                                   : material->micro_inertia;
+    setup->no_tension[m] = material->tension == CDEM_CASE_TENSION_NONE;
     CDEM_TRY(moduli(setup, &setup->model.materials_of[m], &setup->moduli[m], fault));
   }
   return CDEM_OK;
@@ -274,6 +276,7 @@ cdem_status cdem_run_body_elastic(cdem_run_body *setup, cdem_fault *fault) {
     inertia[m] = factor * setup->micro_inertia[m];
   const cdem_body_options options = {.density = setup->density,
                                      .micro_inertia = inertia,
+                                     .no_tension = setup->no_tension,
                                      .linear = cdem_run_values(setup->run)->analysis ==
                                                CDEM_ANALYSIS_STATIC,
                                      .threads = setup->run->threads};

@@ -71,6 +71,15 @@ static void wrong_combinations(void **state) {
       {MATERIALS("  r: {young: 1, poisson: 0, density: 1}\n  s: " COSSERAT ", groups: a}\n"),
        "c.yaml:5:14: Cosserat and other materials cannot be in one case: 'r' is not, 's' is "
        "Cosserat"},
+      {MATERIALS(
+           "  r: {model: orthotropic, e1: 1, e2: 1, e3: 1, nu12: 0, nu13: 0, nu23: 0, g12: 1, "
+           "g13: 1, g23: 1, density: 1, tension: none}\n"),
+       "a material without tension wants isotropic moduli, and 'r' is orthotropic; give it 'young' "
+       "and 'poisson', or 'tension: elastic'"},
+      {"analysis: static\nmesh: a\nmaterials: {r: {young: 1, poisson: 0, tension: none}}\n",
+       "c.yaml:3:48: a static run is linear, and a material without tension is not; take "
+       "'analysis: relaxation'"},
+      {MATERIALS("  r: {young: 1, poisson: 0, density: 1, tension: some}\n"), "c.yaml:4:50: "},
       /* interfaces and contact */
       {ROCK "interfaces: [{tension: 1}]\n", "c.yaml:5:1: interfaces need 'blocks'"},
       {LAW "between: [a]}]\n", "c.yaml:6:15: 'between' must name two groups, not 1"},

@@ -13,6 +13,7 @@ typedef struct {
   cdem_mesh mesh;
   cdem_material material;
   double density;
+  bool no_tension;
   cdem_model model;
   cdem_body body;
   int64_t size; /* nodes * dofs */
@@ -21,7 +22,7 @@ typedef struct {
 typedef struct {
   int32_t count; /* bricks a direction */
   double distortion;
-  bool linear, separate;
+  bool linear, separate, no_tension;
   int threads;
   cdem_plane plane;
 } recipe;
@@ -51,7 +52,9 @@ static inline void specimen_build(const recipe *how, specimen *s) {
                                 .default_material = -1,
                                 .section = {how->plane, 0.7}};
   check_ok(cdem_model_init(&options, &s->model, &fault));
+  s->no_tension = how->no_tension;
   cdem_body_options body = {.density = &s->density,
+                            .no_tension = &s->no_tension,
                             .linear = how->linear,
                             .separate = how->separate,
                             .threads = how->threads};

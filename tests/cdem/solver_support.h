@@ -12,7 +12,7 @@ typedef struct {
   double young, poisson, density;
   cdem_plane plane;
   double thickness;
-  bool linear;
+  bool linear, no_tension;
   int threads;
 } rig_options;
 
@@ -66,7 +66,10 @@ static inline void rig_make(const rig_options *o, rig *r) {
                               .section = {o->plane, o->thickness}};
   check_ok(cdem_model_init(&model, &r->model, &fault));
   r->density = o->density;
-  cdem_body_options body = {.density = &r->density, .linear = o->linear, .threads = o->threads};
+  cdem_body_options body = {.density = &r->density,
+                            .no_tension = &o->no_tension,
+                            .linear = o->linear,
+                            .threads = o->threads};
   check_ok(cdem_body_init(&r->model, &body, &r->body, &fault));
   r->options = (cdem_solver_options){
       .body = &r->body, .blocks = &r->blocks, .thickness = o->thickness, .threads = o->threads};
