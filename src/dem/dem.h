@@ -71,12 +71,12 @@ typedef struct {
   double normal, shear, moment, bond;        /* stored now */
   double friction, rolling, damping, broken; /* dissipated: sliding; rolling and twisting; dashpots,
                                                 mass and local damping; in bonds that broke */
-  double gravity, walls, cell, driven, applied; /* work of gravity, of moving walls, of the
-                                                   deforming cell, of driven grains, of `applied` */
-  double circulating; /* work of forces that neither store nor dissipate */
-  double initial;     /* energy at the start */
-  double error;       /* stored and kinetic + dissipated - works - initial */
-  double exchange;    /* scale of the error: the largest of all terms so far seen at a report */
+  double gravity, walls, cell;    /* work of gravity, of moving walls, of the deforming cell */
+  double driven, guided, applied; /* ... of driven grains, of guided ones, of `applied` */
+  double circulating;             /* work of forces that neither store nor dissipate */
+  double initial;                 /* energy at the start */
+  double error;                   /* stored and kinetic + dissipated - works - initial */
+  double exchange; /* scale of the error: the largest of all terms so far seen at a report */
 } cdem_dem_energies;
 
 typedef struct cdem_dem_store cdem_dem_store;

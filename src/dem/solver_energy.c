@@ -81,7 +81,7 @@ static double gravity_work(const cdem_dem *dem) {
   for (int32_t i = 0; i < s->grains; i++) {
     const double *old = s->travel + 8 * (int64_t)i, *since = s->core->since + 8 * (int64_t)i;
     double u[3] = {old[0] + since[0], old[1] + since[1], old[2] + since[2]};
-    if (s->kind[i] == CDEM_GRAIN_FREE)
+    if (s->kind[i] != CDEM_GRAIN_DRIVEN)
       sum += cdem_motion(s, i)[6] * cdem_dot3(g, u);
   }
   return sum;
@@ -110,6 +110,7 @@ static void fill(const cdem_dem *dem, cdem_dem_energies *e) {
   e->walls = core->wall_work;
   e->cell = core->cell_work;
   e->driven = sum[CDEM_DEM_DRIVEN];
+  e->guided = sum[CDEM_DEM_GUIDED];
   e->applied = sum[CDEM_DEM_APPLIED];
   e->circulating = -sum[CDEM_DEM_CIRCULATED];
 }
@@ -117,7 +118,8 @@ static void fill(const cdem_dem *dem, cdem_dem_energies *e) {
 static double imbalance(const cdem_dem_energies *e) {
   double stored = e->translation + e->rotation + e->normal + e->shear + e->moment + e->bond;
   double dissipated = e->friction + e->rolling + e->damping + e->broken;
-  double works = e->gravity + e->walls + e->cell + e->driven + e->applied + e->circulating;
+  double works =
+      e->gravity + e->walls + e->cell + e->driven + e->guided + e->applied + e->circulating;
   return stored + dissipated - works - e->initial;
 }
 
@@ -128,10 +130,10 @@ void cdem_dem_energies_now(cdem_dem *dem, cdem_dem_energies *e) {
     return;
   fill(dem, e);
   e->error = imbalance(e);
-  const double term[] = {e->translation, e->rotation, e->normal,  e->shear,   e->moment,
-                         e->bond,        e->friction, e->rolling, e->damping, e->broken,
-                         e->gravity,     e->walls,    e->cell,    e->driven,  e->applied,
-                         e->circulating, e->initial};
+  const double term[] = {e->translation, e->rotation,    e->normal,  e->shear,   e->moment,
+                         e->bond,        e->friction,    e->rolling, e->damping, e->broken,
+                         e->gravity,     e->walls,       e->cell,    e->driven,  e->guided,
+                         e->applied,     e->circulating, e->initial};
   for (size_t k = 0; k < sizeof term / sizeof term[0]; k++)
     core->exchange = fmax(core->exchange, fabs(term[k]));
   e->exchange = core->exchange;
@@ -158,7 +160,7 @@ static double kinetic_now(const cdem_dem *dem) {
     double now[3];
     for (int c = 0; c < 3; c++)
       now[c] = v[c] + 0.5 * gain[c];
-    if (s->kind[i] == CDEM_GRAIN_FREE)
+    if (s->kind[i] != CDEM_GRAIN_DRIVEN)
       sum += 0.5 * v[6] * cdem_dot3(now, now);
   }
   return sum;

@@ -99,7 +99,7 @@ static void book(const cdem_move_kernel *kernel, int32_t i, const kick *k, unsig
   const double *applied = kernel->applied != NULL ? kernel->applied + 6 * (int64_t)s->id[i] : NULL;
   for (int c = 0; c < 6; c++) {
     double way = 0.5 * dt * (kernel->commit ? v[c] + k->after[c] : v[c]);
-    if (held == 0x3fu) { /* its own mass is not ours to move */
+    if (s->kind[i] == CDEM_GRAIN_DRIVEN) { /* its own mass is not ours to move */
       sum[CDEM_DEM_DRIVEN] -= cdem_force(s, i)[c] * way;
       continue;
     }
@@ -107,7 +107,7 @@ static void book(const cdem_move_kernel *kernel, int32_t i, const kick *k, unsig
     double now = 0.5 * (v[c] + k->after[c]);
     if (held >> c & 1u) { /* what guides it, the change of its kinetic energy included */
       double guide = mass * (k->after[c] - v[c]) / dt - k->force[c];
-      sum[CDEM_DEM_DRIVEN] += guide * way;
+      sum[CDEM_DEM_GUIDED] += guide * way;
       if (applied != NULL)
         sum[CDEM_DEM_APPLIED] += applied[c] * way;
       sum[c < 3 ? CDEM_DEM_TRANSLATION : CDEM_DEM_ROTATION] += 0.5 * mass * v[c] * k->after[c];
@@ -189,7 +189,7 @@ void cdem_grain_set_before(const cdem_dem *dem, int32_t i, const double now[6]) 
   double *v = cdem_motion(s, i), half = 0.5 * s->options.mass_damping * dem->step;
   unsigned held = cdem_grain_held(s->kind[i]);
   kick k;
-  if (held == 0x3fu)
+  if (s->kind[i] == CDEM_GRAIN_DRIVEN)
     return;
   kick_of(&kernel, i, &k);
   for (int c = 0; c < 6; c++) {

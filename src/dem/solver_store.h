@@ -24,9 +24,10 @@ enum {
   CDEM_DEM_ROLLED,
   CDEM_DEM_CIRCULATED,
   CDEM_DEM_BROKEN,
-  CDEM_DEM_MASS,  /* taken by mass damping */
-  CDEM_DEM_LOCAL, /* by local damping */
-  CDEM_DEM_DRIVEN,
+  CDEM_DEM_MASS,   /* taken by mass damping */
+  CDEM_DEM_LOCAL,  /* by local damping */
+  CDEM_DEM_DRIVEN, /* of driven grains, of what guides others */
+  CDEM_DEM_GUIDED,
   CDEM_DEM_APPLIED,
   CDEM_DEM_TRANSLATION,
   CDEM_DEM_ROTATION,

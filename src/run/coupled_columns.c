@@ -160,6 +160,10 @@ static void put_book(cdem_run_row *row, const cdem_run_coupled *c) {
   cdem_run_put(row, "J", exchange, "exchange");
   cdem_run_put(row, "", scale > 0.0 ? fabs(coarse.error + fine.error + exchange) / scale : 0.0,
                "energy_error");
+  if (c->guides > 0)
+    cdem_run_put(row, "J", fine.guided, "fine.guided");
+  if (c->loads > 0)
+    cdem_run_put(row, "J", fine.applied, "fine.applied");
 }
 
 void cdem_run_coupled_columns(cdem_run_setup *run, cdem_run_row *row) {

@@ -204,18 +204,14 @@ static cdem_status support(cdem_run_coupled *c, int64_t index, bool *touch, cdem
 
 cdem_status cdem_run_coupled_supports(cdem_run_coupled *c, cdem_fault *fault) {
   cdem_grains *grains = &c->grains->grains;
-  unsigned every = grains->dim == 2 ? 1u << 0 | 1u << 1 | 1u << 5 : 0x3fu;
   bool *touch;
   CDEM_NEW(touch, grains->grains, fault);
   cdem_status status = CDEM_OK;
   for (int64_t i = 0; status == CDEM_OK && i < cdem_run_values(c->run)->supports.count; i++)
     status = support(c, i, touch, fault);
   free(touch);
-  for (int64_t i = 0; status == CDEM_OK && i < c->guides; i++) {
-    const cdem_run_guided *g = &c->guide[i];
-    bool whole = (g->bits & every) == every;
-    grains->motion[g->grain] = whole ? CDEM_GRAIN_DRIVEN : (uint8_t)(CDEM_GRAIN_GUIDED | g->bits);
-  }
+  for (int64_t i = 0; status == CDEM_OK && i < c->guides; i++)
+    grains->motion[c->guide[i].grain] = (uint8_t)(CDEM_GRAIN_GUIDED | c->guide[i].bits);
   return status;
 }
 

@@ -299,6 +299,8 @@ static void test_guided(void **state) {
   m.grains.motion[0] = CDEM_GRAIN_GUIDED | 1u << 1 | 1u << 5;
   m.grains.motion[1] = CDEM_GRAIN_DRIVEN;
   model_move(&m, 1, -0.05, -0.05, 0.0);
+  m.options.gravity[0] = -3.0; /* does work along the roller, none across */
+  m.options.gravity[1] = -9.81;
   check_ok(cdem_dem_init(&m.options, &dem, &fault));
   check_ok(cdem_dem_steps(&dem, 5, &fault));
   double xyz[6], force[6], velocity[6], spin[6], mass[2];
