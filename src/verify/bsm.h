@@ -20,7 +20,8 @@
               left at the edge of the fine region by traction times h, four strains */             \
   X(foundation) /* assembly A at 60 mm, coupled against grains everywhere, relative: damping in    \
                    1/s + 1000 (0 load, 1 peak, 2 place of the peak in m, 3 largest effective, 4    \
-                   least volumetric strain, 5 least volumetric, 6 largest effective stress) */     \
+                   least volumetric strain, 5 least volumetric stress, 6 largest effective stress  \
+                   over its scatter) */                                                            \
   X(softening)  /* load at 60 mm over the peak, coupled: assembly 0 A, 1 B, 2 C */                 \
   X(bonded)   /* bonded grains at 60 mm against bonded grains everywhere: 0 load, 1 with elements  \
                  half as large, 2 error of the first over that of the null, 3 energy book */       \
