@@ -35,6 +35,7 @@ typedef struct {
   double volumetric_strain, effective_strain; /* smallest, largest */
   double volumetric_stress, effective_stress; /* Pa; likewise */
   double kinetic, coarse_part; /* J: of the fine grains, and of what a mesh can express */
+  int64_t strayed;             /* fine grains that have left the fine region for the medium */
 } cdem_run_fine;
 
 typedef struct {

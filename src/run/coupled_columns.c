@@ -87,12 +87,42 @@ static cdem_status look_kinetic(const cdem_run_coupled *c, cdem_run_fine *found,
   return CDEM_OK;
 }
 
+/* Fine grains more than a diameter away from their start, with their centres in outer elements:
+ * they have slipped through the interface grains, and the medium does not know them. */
+static cdem_status look_strayed(const cdem_run_coupled *c, cdem_run_fine *found,
+                                cdem_fault *fault) {
+  const cdem_dem *dem = &c->grains->dem;
+  const double *radius = cdem_dem_radius(dem);
+  int64_t far = 0;
+  double *all;
+  CDEM_NEW(all, 12 * dem->grains, fault);
+  double *xyz = all, *way = all + 3 * dem->grains, *places = all + 6 * dem->grains;
+  cdem_dem_look(dem, &(cdem_dem_view){.xyz = xyz, .displacement = way});
+  for (int64_t a = 0; a < c->fine; a++) {
+    int64_t id = c->fine_grain[a];
+    if (cdem_norm3(way + 3 * id) > 2.0 * radius[id])
+      memcpy(places + 3 * far++, xyz + 3 * id, 3 * sizeof *xyz);
+  }
+  int32_t *cell = cdem_allocate(far, sizeof *cell, fault);
+  cdem_status status = cell == NULL ? CDEM_MEMORY : CDEM_OK;
+  if (status == CDEM_OK && far > 0)
+    status = cdem_locate(&c->body->mesh, c->partition.outer_cells, c->partition.outer_cell, far,
+                         places, cell, all + 9 * dem->grains, fault);
+  for (int64_t k = 0; status == CDEM_OK && k < far; k++)
+    found->strayed += cell[k] >= 0;
+  free(cell);
+  free(all);
+  return status;
+}
+
 cdem_status cdem_run_coupled_look(const cdem_run_coupled *c, cdem_run_fine *found,
                                   cdem_fault *fault) {
-  *found = (cdem_run_fine){INFINITY, -INFINITY, INFINITY, -INFINITY, 0.0, 0.0};
+  *found = (cdem_run_fine){INFINITY, -INFINITY, INFINITY, -INFINITY, 0.0, 0.0, 0};
   if (!c->has_grains)
     return look_cells(c, found, fault);
   CDEM_TRY(look_grains(c, found, fault));
+  if (c->version != CDEM_VERSION_GRAINS)
+    CDEM_TRY(look_strayed(c, found, fault));
   return look_kinetic(c, found, fault);
 }
 
@@ -176,6 +206,7 @@ void cdem_run_coupled_columns(cdem_run_setup *run, cdem_run_row *row) {
   cdem_run_put(row, "", f.effective_strain, "region.effective_strain");
   cdem_run_put(row, "Pa", f.volumetric_stress, "region.volumetric_stress");
   cdem_run_put(row, "Pa", f.effective_stress, "region.effective_stress");
+  cdem_run_put(row, "", (double)f.strayed, "region.strayed");
   cdem_run_put(row, "J", f.coarse_part, "coarse_part");
   cdem_run_put(row, "J", f.kinetic - f.coarse_part, "fine_part");
   put_book(row, c);
