@@ -96,19 +96,33 @@ static bool is_strain(int choice) {
   return choice == CDEM_GRAIN_VOLUMETRIC_STRAIN || choice == CDEM_GRAIN_EFFECTIVE_STRAIN;
 }
 
-/* Only those that are calculated: interface grains are part of the coarse medium. */
+/* Spheres are cut through the centres next to the middle: the plane of symmetry of a lattice may
+ * run between its spheres. */
+static void cut_through(const cdem_grains *grains, double through[3]) {
+  double low[3], high[3], best = INFINITY;
+  cdem_grains_box(grains, low, high);
+  for (int64_t i = 0; i < grains->grains; i++) {
+    double off = fabs(grains->xyz[3 * i + 1] - 0.5 * (low[1] + high[1]));
+    if (off < best) {
+      best = off;
+      memcpy(through, grains->xyz + 3 * i, 3 * sizeof *through);
+    }
+  }
+}
+
 static cdem_status draw_grains(const cdem_run_coupled *c, int choice, const char *title,
                                cdem_map *map, cdem_fault *fault) {
-  bool field = choice < CDEM_GRAIN_FIELDS, cut = c->grains->dim == 3 && !field;
-  const cdem_picture picture = {.kind = choice == CHAINS       ? CDEM_PICTURE_CHAINS
-                                        : choice == VELOCITIES ? CDEM_PICTURE_ARROWS
-                                        : is_strain(choice)    ? CDEM_PICTURE_BAND
-                                                               : CDEM_PICTURE_GRAINS,
-                                .field = field ? (cdem_grain_field)choice : CDEM_GRAIN_SPEED,
-                                .strain = c->strain,
-                                .title = title,
-                                .slice = cut,
-                                .middle = cut};
+  bool field = choice < CDEM_GRAIN_FIELDS;
+  cdem_picture picture = {.kind = choice == CHAINS       ? CDEM_PICTURE_CHAINS
+                                  : choice == VELOCITIES ? CDEM_PICTURE_ARROWS
+                                  : is_strain(choice)    ? CDEM_PICTURE_BAND
+                                                         : CDEM_PICTURE_GRAINS,
+                          .field = field ? (cdem_grain_field)choice : CDEM_GRAIN_SPEED,
+                          .strain = c->strain,
+                          .title = title,
+                          .slice = c->grains->dim == 3};
+  if (picture.slice)
+    cut_through(&c->grains->grains, picture.through);
   return cdem_dem_picture(&c->grains->dem, &picture, map, fault);
 }
 
