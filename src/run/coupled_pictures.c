@@ -110,6 +110,8 @@ static void cut_through(const cdem_grains *grains, double through[3]) {
   }
 }
 
+/* Interface grains are part of the coarse medium, which is drawn as elements. Discs of strain reach
+ * to the corners of the square around a grain, so that no lattice shows gaps. */
 static cdem_status draw_grains(const cdem_run_coupled *c, int choice, const char *title,
                                cdem_map *map, cdem_fault *fault) {
   bool field = choice < CDEM_GRAIN_FIELDS;
@@ -120,10 +122,18 @@ static cdem_status draw_grains(const cdem_run_coupled *c, int choice, const char
                           .field = field ? (cdem_grain_field)choice : CDEM_GRAIN_SPEED,
                           .strain = c->strain,
                           .title = title,
+                          .swell = sqrt(2.0),
                           .slice = c->grains->dim == 3};
+  uint8_t *hidden;
+  CDEM_NEW(hidden, c->grains->grains.grains, fault);
+  for (int64_t i = 0; c->has_body && i < c->partition.grains; i++)
+    hidden[i] = c->partition.part[i] == CDEM_PART_INTERFACE;
+  picture.hidden = hidden;
   if (picture.slice)
     cut_through(&c->grains->grains, picture.through);
-  return cdem_dem_picture(&c->grains->dem, &picture, map, fault);
+  cdem_status status = cdem_dem_picture(&c->grains->dem, &picture, map, fault);
+  free(hidden);
+  return status;
 }
 
 /* Gives the polygons and lines of the body to the map of the grains. */
