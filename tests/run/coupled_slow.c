@@ -35,6 +35,31 @@ static const char box[] =
     "  broken: {of: fine.bonds_broken, take: last}\n"
     "  load: {of: load.plate.fy, take: last}\n";
 
+/* Spheres in bricks, bonded; both forms of the force. */
+static const char solid[] =
+    "title: Small footing in space\n"
+    "end: 4 ms\n"
+    "step: 50 us\n"
+    "mass_damping: 300 1/s\n"
+    "history_every: 0.4 ms\n"
+    "frame_every: 1 ms\n"
+    "mesh: {shape: hex8, count: [3, 3, 2], size: [1.2 m, 1.2 m, 0.8 m], origin: [-0.6, -0.6, "
+    "-0.8]}\n"
+    "materials: {ground: {young: 250 MPa, poisson: 0, density: 1361 kg/m3}}\n"
+    "supports: [{group: z0, displacement: {x: 0, y: 0, z: 0}}]\n"
+    "grains:\n"
+    "  dimension: 3\n"
+    "  law: linear\n"
+    "  packing: {kind: cubic, low: [-0.6, -0.6, -0.8], high: [0.6, 0.6, 0], radius: 50 mm}\n"
+    "  materials: {grain: {density: 2600 kg/m3}}\n"
+    "contacts: [{normal_stiffness: 2.5e7 N/m, shear_stiffness: 1e7 N/m, friction: 0.5,\n"
+    "            damping_ratio: 0}]\n"
+    "bonds: [{normal_stiffness: 2.5e7 N/m, shear_stiffness: 1e7 N/m, gap: 0.01}]\n"
+    "walls: {plate: {shape: plate, center: [0, 0, 0], normal: [0, 0, -1], half_size: [0.1, 0.1],\n"
+    "                velocity: {z: -0.5 m/s}}}\n"
+    "coupling: {regions: [{low: [-0.2, -0.2, -0.4], high: [0.2, 0.2, 0.1]}], cycles: 2}\n"
+    "results: {load: {of: load.plate.fz, take: last}, error: {of: energy_error, take: last}}\n";
+
 static void check_same_files(const char *a, const char *b) {
   const char *const files[] = {"history.csv", "body/body-000004.vtu",
                                "interfaces/interfaces-000004.vtu", "grains/grains-000004.vtu",
@@ -135,6 +160,36 @@ static void blocks_of_a_cosserat_medium_break(void **state) {
   cdem_run_summary_release(&summary);
 }
 
+/* History and last checkpoint, interrupted in the middle with two threads. */
+static void spheres_in_bricks_give_the_same_bits(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  write_case("box.yaml", solid);
+  check_ok(run_until("whole", false, 1 << 30, 1, &fault));
+  check_fails(run_until("broken", false, 3, 2, &fault), CDEM_INTERRUPTED, "--resume");
+  check_ok(run_until("broken", true, 1 << 30, 2, &fault));
+  assert_true(same_files("whole/history.csv", "broken/history.csv"));
+  check_same_state("whole", "broken");
+}
+
+/* The two forms are two ways to the same elastic answer; neither makes energy. */
+static void both_forms_agree_in_space(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  cdem_run_summary summary[2] = {{0}};
+  const char *const form[2] = {"coupling.form=interface", "coupling.form=virtual-work"};
+  write_case("box.yaml", solid);
+  for (int i = 0; i < 2; i++)
+    check_ok(run_case("box.yaml", form[i], 1, &form[i], &summary[i], &fault));
+  double a = key_value(&summary[0], "load"), b = key_value(&summary[1], "load");
+  if (!(a > 0.0) || !(fabs(a - b) < 0.02 * a))
+    fail_msg("loads %g and %g", a, b);
+  for (int i = 0; i < 2; i++) {
+    assert_true(key_value(&summary[i], "error") < 1e-3);
+    cdem_run_summary_release(&summary[i]);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(blocks_and_bonds_break),
@@ -143,6 +198,8 @@ int main(void) {
       cmocka_unit_test(unbroken_blocks_are_one_body),
       cmocka_unit_test(automatic_cycles_last_when_faces_open),
       cmocka_unit_test(blocks_of_a_cosserat_medium_break),
+      cmocka_unit_test(spheres_in_bricks_give_the_same_bits),
+      cmocka_unit_test(both_forms_agree_in_space),
   };
   return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }
