@@ -161,6 +161,11 @@ void cdem_interfaces_sum(const cdem_interfaces *interfaces, cdem_interfaces_tota
 /* Greatest squared frequency the springs add, (rad/s)^2, by Gershgorin with the nodes' masses
  * [nodes][dofs] (a tied cluster counts with its members' sum); 0 when there are none. */
 double cdem_interfaces_frequency2(const cdem_interfaces *interfaces, const double *mass);
+/* The same once no face is tied or released: every node alone against the springs of all its faces,
+ * each of at least `least`, Pa/m (of what may take over, contact). A bound for every state to come
+ * of bodies that stay where they are. */
+double cdem_interfaces_open_frequency2(const cdem_interfaces *interfaces, const double *mass,
+                                       double least);
 /* Adds each node's spring stiffness (Gershgorin row sum, N/m) to stiffness [nodes]. */
 void cdem_interfaces_row_sums(const cdem_interfaces *interfaces, double *stiffness);
 

@@ -80,6 +80,28 @@ double cdem_interfaces_frequency2(const cdem_interfaces *interfaces, const doubl
   return highest;
 }
 
+double cdem_interfaces_open_frequency2(const cdem_interfaces *interfaces, const double *mass,
+                                       double least) {
+  const cdem_interfaces_store *store = interfaces->store;
+  int32_t nodes = interfaces->blocks->mesh.nodes;
+  double *stiffness = store->room, highest = 0;
+  memset(stiffness, 0, (size_t)nodes * sizeof *stiffness);
+  for (int32_t p = 0; p < interfaces->blocks->pairs; p++) {
+    if (interfaces->law_of[p] < 0)
+      continue;
+    const cdem_interface_law *law = &interfaces->law[interfaces->law_of[p]];
+    const cdem_face_pair *pair = &interfaces->blocks->pair[p];
+    double spring = fmax(least, fmax(law->kn, law->ks));
+    for (int k = 0; k < pair->corners; k++)
+      for (int side = 0; side < 2; side++)
+        stiffness[pair->node[side][k]] += 2 * spring * store->area[store->first[p] + k];
+  }
+  for (int32_t n = 0; n < nodes; n++)
+    if (stiffness[n] > 0)
+      highest = fmax(highest, stiffness[n] / mass[(int64_t)n * interfaces->dofs]);
+  return highest;
+}
+
 typedef void add_block(void *context, int32_t node_a, int32_t node_b, const double *block);
 
 /* Springs of one pair in its frame at the start. */

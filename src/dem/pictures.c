@@ -52,6 +52,8 @@ static cdem_status eye_init(const cdem_snapshot *s, const cdem_picture *p, cdem_
   *eye = (cdem_picture_eye){.right = {1, 0, 0}, .up = {0, 1, 0}, .into = {0, 0, -1}};
   eye->flat = s->dim == 2;
   eye->window = p->window;
+  eye->hidden = p->hidden;
+  eye->swell = p->swell > 0.0 ? p->swell : FILLED;
   for (int64_t i = 0; i < s->grains; i++)
     eye->mean_radius += s->radius[i] / (double)s->grains;
   eye->reach = 2.0 * eye->mean_radius;
@@ -102,9 +104,11 @@ static bool is_near(const cdem_picture_eye *eye, const double xyz[3]) {
   return cdem_picture_shows(eye, xyz) && fabs(depth_of(eye, xyz)) <= eye->reach;
 }
 
-/* Radius of the circle that is seen of a grain; 0: it is not cut. */
+/* Radius of the circle that is seen of a grain; 0: it is hidden, or not cut. */
 static double radius_seen(const cdem_picture_eye *eye, const cdem_snapshot *s, int64_t i) {
   double r = s->radius[i], d = depth_of(eye, s->xyz + 3 * i);
+  if (eye->hidden != NULL && eye->hidden[i])
+    return 0.0;
   return fabs(d) < r && cdem_picture_shows(eye, s->xyz + 3 * i) ? sqrt((r - d) * (r + d)) : 0.0;
 }
 
@@ -125,7 +129,7 @@ static cdem_status put_discs(const cdem_snapshot *s, const cdem_picture_eye *eye
     if (!(radius > 0.0))
       continue;
     project(eye, s->xyz + 3 * i, discs->xy + 4 * seen);
-    discs->size[seen] = rims ? radius : FILLED * radius;
+    discs->size[seen] = rims ? radius : eye->swell * radius;
     discs->value[seen++] = value[i];
   }
   return CDEM_OK;

@@ -50,7 +50,9 @@ typedef struct {
   bool slice;            /* 3-D: cut across `view` through `through` */
   bool middle;           /* ... or through the middle of the grains */
   double through[3];
-  cdem_region window; /* only grains with centres in it are drawn */
+  cdem_region window;    /* only grains with centres in it are drawn */
+  const uint8_t *hidden; /* [grains] by id: those set are not drawn as discs; NULL: none */
+  double swell;          /* bands: size of the discs in radii; 0: as dense packings want it */
   bool no_walls;
 } cdem_picture;
 

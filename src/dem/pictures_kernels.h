@@ -19,6 +19,8 @@ typedef struct {
   double reach;   /* half the thickness of what chains and arrows are shown of */
   double mean_radius;
   cdem_region window;
+  const uint8_t *hidden;
+  double swell;
 } cdem_picture_eye;
 
 /* Is a place in the window? */

@@ -90,6 +90,8 @@ cdem_status cdem_run_body_elastic(cdem_run_body *setup, cdem_fault *fault);
 /* body_interfaces.c, body_contact.c */
 cdem_status cdem_run_body_interfaces(cdem_run_body *setup, cdem_fault *fault);
 cdem_status cdem_run_body_contact(cdem_run_body *setup, cdem_fault *fault);
+/* Normal stiffness of the contact, Pa/m. */
+double cdem_run_contact_stiffness(const cdem_run_body *setup);
 /* body_conditions.c: supports, plates, initial velocities; body_loads.c: loads, pressures, quiet
  * boundaries */
 cdem_status cdem_run_body_conditions(cdem_run_body *setup, cdem_fault *fault);

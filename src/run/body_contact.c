@@ -21,14 +21,19 @@ static void find_scale(cdem_run_body *setup) {
     }
 }
 
+double cdem_run_contact_stiffness(const cdem_run_body *setup) {
+  const cdem_case_contact *contact = &cdem_run_values(setup->run)->contact;
+  return contact->normal_stiffness > 0.0
+             ? contact->normal_stiffness
+             : contact->stiffness_factor * setup->contact_wave / setup->contact_size;
+}
+
 cdem_status cdem_run_body_contact(cdem_run_body *setup, cdem_fault *fault) {
   const cdem_case_contact *contact = &cdem_run_values(setup->run)->contact;
   find_scale(setup);
   if (!contact->active)
     return CDEM_OK;
-  double kn = contact->normal_stiffness > 0.0
-                  ? contact->normal_stiffness
-                  : contact->stiffness_factor * setup->contact_wave / setup->contact_size;
+  double kn = cdem_run_contact_stiffness(setup);
   double ratio = isnan(contact->shear_ratio) ? setup->contact_ratio : contact->shear_ratio;
   const cdem_contact_options options = {
       .blocks = &setup->blocks,

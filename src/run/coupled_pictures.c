@@ -96,20 +96,44 @@ static bool is_strain(int choice) {
   return choice == CDEM_GRAIN_VOLUMETRIC_STRAIN || choice == CDEM_GRAIN_EFFECTIVE_STRAIN;
 }
 
-/* Only those that are calculated: interface grains are part of the coarse medium. */
+/* Spheres are cut through the centres next to the middle: the plane of symmetry of a lattice may
+ * run between its spheres. */
+static void cut_through(const cdem_grains *grains, double through[3]) {
+  double low[3], high[3], best = INFINITY;
+  cdem_grains_box(grains, low, high);
+  for (int64_t i = 0; i < grains->grains; i++) {
+    double off = fabs(grains->xyz[3 * i + 1] - 0.5 * (low[1] + high[1]));
+    if (off < best) {
+      best = off;
+      memcpy(through, grains->xyz + 3 * i, 3 * sizeof *through);
+    }
+  }
+}
+
+/* Interface grains are part of the coarse medium, which is drawn as elements. Discs of strain reach
+ * to the corners of the square around a grain, so that no lattice shows gaps. */
 static cdem_status draw_grains(const cdem_run_coupled *c, int choice, const char *title,
                                cdem_map *map, cdem_fault *fault) {
-  bool field = choice < CDEM_GRAIN_FIELDS, cut = c->grains->dim == 3 && !field;
-  const cdem_picture picture = {.kind = choice == CHAINS       ? CDEM_PICTURE_CHAINS
-                                        : choice == VELOCITIES ? CDEM_PICTURE_ARROWS
-                                        : is_strain(choice)    ? CDEM_PICTURE_BAND
-                                                               : CDEM_PICTURE_GRAINS,
-                                .field = field ? (cdem_grain_field)choice : CDEM_GRAIN_SPEED,
-                                .strain = c->strain,
-                                .title = title,
-                                .slice = cut,
-                                .middle = cut};
-  return cdem_dem_picture(&c->grains->dem, &picture, map, fault);
+  bool field = choice < CDEM_GRAIN_FIELDS;
+  cdem_picture picture = {.kind = choice == CHAINS       ? CDEM_PICTURE_CHAINS
+                                  : choice == VELOCITIES ? CDEM_PICTURE_ARROWS
+                                  : is_strain(choice)    ? CDEM_PICTURE_BAND
+                                                         : CDEM_PICTURE_GRAINS,
+                          .field = field ? (cdem_grain_field)choice : CDEM_GRAIN_SPEED,
+                          .strain = c->strain,
+                          .title = title,
+                          .swell = sqrt(2.0),
+                          .slice = c->grains->dim == 3};
+  uint8_t *hidden;
+  CDEM_NEW(hidden, c->grains->grains.grains, fault);
+  for (int64_t i = 0; c->has_body && i < c->partition.grains; i++)
+    hidden[i] = c->partition.part[i] == CDEM_PART_INTERFACE;
+  picture.hidden = hidden;
+  if (picture.slice)
+    cut_through(&c->grains->grains, picture.through);
+  cdem_status status = cdem_dem_picture(&c->grains->dem, &picture, map, fault);
+  free(hidden);
+  return status;
 }
 
 /* Gives the polygons and lines of the body to the map of the grains. */

@@ -51,6 +51,10 @@ static cdem_status make_body(cdem_run_coupled *c, double factor, double step, cd
     body->rotation_factor = factor;
     CDEM_TRY(cdem_run_body_elastic(body, fault));
     CDEM_TRY(add_masses(c, fault));
+    if (body->has_contact) { /* it looks at the masses of the body that is no more */
+      cdem_contact_release(&body->contact);
+      CDEM_TRY(cdem_run_body_contact(body, fault));
+    }
   }
   body->fixed_step = step;
   CDEM_TRY(cdem_run_body_solver(body, fault));
@@ -134,9 +138,23 @@ static cdem_status tie_fine(cdem_run_coupled *c, cdem_fault *fault) {
 
 /* ---- cycles ---- */
 
+/* The limit of the body when all of its faces have opened: tied ones add their springs and lose the
+ * masses of their copies, and contact, which opens and closes, counts four times (cdem/solver). The
+ * number of cycles cannot change on the way. */
+static double limit_when_open(const cdem_run_coupled *c) {
+  enum { UNILATERAL = 4 };
+  const cdem_run_body *body = c->body;
+  if (!body->has_interfaces)
+    return c->coarse_limit;
+  double now = 2.0 / c->coarse_limit,
+         contact = body->has_contact ? UNILATERAL * cdem_run_contact_stiffness(body) : 0.0;
+  return 2.0 / sqrt(now * now +
+                    cdem_interfaces_open_frequency2(&body->interfaces, body->body.mass, contact));
+}
+
 static cdem_status choose_cycles(cdem_run_coupled *c, double step, cdem_fault *fault) {
   const cdem_case_coupling *v = cdem_run_coupled_values(c);
-  double most = floor(coarse_safety * c->coarse_limit / step);
+  double most = floor(coarse_safety * limit_when_open(c) / step);
   int largest = (int)fmin(floor(c->coarse_limit / step), 1e9);
   if (v->cycles > largest || largest < 1)
     return cdem_case_fail(&c->run->cases, "coupling.cycles", CDEM_INPUT, fault,

@@ -4,12 +4,14 @@
 
 #include "verify/verify.h"
 
-#define THEORY "docs/theory/cosserat.md, "
-#define SOURCE "Li & Wan 2010, "
-#define BSM    "docs/theory/bsm.md, "
-#define FULL   "grains everywhere, the same run"
-#define PATCH  "Providas & Kattis 2002"
-#define HOLE   "Kaloni & Ariman 1967, Eringen 1968"
+#define THEORY    "docs/theory/cosserat.md, "
+#define SOURCE    "Li & Wan 2010, "
+#define PROJECTOR "Li & Wan 2010, eqs 3-8"
+#define BSM       "docs/theory/bsm.md, "
+#define SOLID     "docs/theory/bsm-solid.md, "
+#define FULL      "grains everywhere, the same run"
+#define PATCH     "Providas & Kattis 2002"
+#define HOLE      "Kaloni & Ariman 1967, Eringen 1968"
 
 #define MEASURE(name) .measure = cdem_bsm_measure_##name
 
@@ -136,6 +138,31 @@ static const cdem_verification checks[] = {
      MEASURE(softening), .parameter = 1, .slow = true},
     {"foundation C does not soften: load at 60 mm over its peak", SOURCE "figure 3", 1, 0.03,
      MEASURE(softening), .parameter = 2, .slow = true},
+    /* Spheres in bricks: identities to rounding. */
+    {"projector in space: P P = P", PROJECTOR, 0, 1e-12, MEASURE(solid_identity), .parameter = 0},
+    {"projector in space: Q N = 0", PROJECTOR, 0, 1e-12, MEASURE(solid_identity), .parameter = 1},
+    {"projector in space: N^T Mp Q = 0", PROJECTOR, 0, 1e-12, MEASURE(solid_identity),
+     .parameter = 2},
+    {"projector in space: kinetic energy splits", PROJECTOR, 0, 1e-12, MEASURE(solid_identity),
+     .parameter = 3},
+    {"projector in space: linear fields are reproduced", PROJECTOR, 0, 1e-12,
+     MEASURE(solid_identity), .parameter = 4},
+    {"cubic lattice: c11 over kn/(2 r)", SOLID "eq. (4)", 1, 1e-3, MEASURE(solid_lattice),
+     .parameter = 0},
+    {"cubic lattice: c12 over kn/(2 r)", SOLID "eq. (4)", 0, 1e-3, MEASURE(solid_lattice),
+     .parameter = 1},
+    {"cubic lattice: c44 over ks/(4 r), spins free", SOLID "eq. (6)", 1, 1e-3,
+     MEASURE(solid_lattice), .parameter = 2},
+    {"patch in space, pulled, h = 12 r", SOLID "eq. (9)", 1.0 / 12.0, 1e-4, MEASURE(solid_patch),
+     .parameter = 60},
+    {"patch in space, sheared, h = 12 r", SOLID "eq. (10)", 1.0 / 24.0, 1e-4, MEASURE(solid_patch),
+     .parameter = 61},
+    {"patch in space, turned, h = 12 r", SOLID "eq. (3)", 0, 1e-4, MEASURE(solid_patch),
+     .parameter = 62},
+    {"patch in space, pulled, h = 24 r", "bound of 5 %", 0, 0.05, MEASURE(solid_patch),
+     .parameter = 120},
+    {"patch in space, sheared, h = 24 r", "bound of 5 %", 0, 0.05, MEASURE(solid_patch),
+     .parameter = 121},
 };
 
 const cdem_verify_group cdem_verify_bsm = {

@@ -25,7 +25,14 @@
   X(softening)  /* load at 60 mm over the peak, coupled: assembly 0 A, 1 B, 2 C */                 \
   X(bonded)   /* bonded grains at 60 mm against bonded grains everywhere: 0 load, 1 with elements  \
                  half as large, 2 error of the first over that of the null, 3 energy book */       \
-  X(undamped) /* bonded, no damping, 300 ms: 0 load, 1 coarse kinetic energy, last over early */
+  X(undamped) /* bonded, no damping, 300 ms: 0 load, 1 coarse kinetic energy, last over early */   \
+  X(solid_identity) /* spheres in distorted bricks: 0 P^2 = P, 1 Q N = 0, 2 N^T Mp Q = 0, 3 the    \
+                     kinetic energy splits, 4 linear fields are reproduced: largest error,         \
+                     relative */                                                                   \
+  X(solid_lattice)  /* bonded cubic lattice, free to spin: 0 c11 in kn/(2 r), 1 c12 in the same, 2 \
+                     c44 in ks/(4 r) */                                                            \
+  X(solid_patch)    /* 10 spheres along an element + field (0 pulled across a face, 1 sheared, 2   \
+                     turned): largest residual of an edge node in traction h^2 */
 
 #define X(name)                                                                                    \
   cdem_status cdem_bsm_measure_##name(int parameter, double *value, cdem_fault *fault);

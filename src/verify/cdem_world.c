@@ -95,6 +95,8 @@ cdem_status cdem_world_build(cdem_world *world, const cdem_world_options *option
   world->options = *options;
   int dofs = cdem_mesh_dimension(&world->mesh);
   cdem_blocks_options cut = {.mesh = &world->mesh,
+                             .groups = options->only != NULL,
+                             .group = &options->only,
                              .breakable = options->breakable != NULL,
                              .breakable_group = &options->breakable};
   CDEM_TRY(cdem_blocks_init(&cut, &world->blocks, fault));

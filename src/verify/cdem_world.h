@@ -14,6 +14,7 @@ typedef struct {
   double young, poisson, density;
   const cdem_material *material; /* copied; NULL: isotropic of young and poisson */
   bool plane_stress;
+  const char *only;                /* group the body is made of; NULL: all cells */
   const char *breakable;           /* group whose every cell is a block; NULL: none */
   const cdem_interface_law *law;   /* between blocks; NULL: none */
   const cdem_contact_law *contact; /* NULL: none */

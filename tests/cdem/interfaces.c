@@ -315,6 +315,7 @@ static void frequency_is_bounded(void **state) {
     double bound = cdem_interfaces_frequency2(&s.interfaces, mass), found = largest(&s, mass);
     assert_true(found <= bound);
     assert_true(bound < 3 * found); /* and not useless */
+    assert_true(cdem_interfaces_open_frequency2(&s.interfaces, mass, 0.0) == bound); /* all are */
     double rows[MOST] = {0};
     cdem_interfaces_row_sums(&s.interfaces, rows);
     for (int32_t n = 0; n < s.blocks.mesh.nodes; n++)
@@ -333,6 +334,9 @@ static void frequency_is_bounded(void **state) {
   tied.insertion = CDEM_INSERTION_TIED;
   build(&s, CDEM_SHAPE_HEX8, two, 0, 3, &tied, 1);
   assert_true(cdem_interfaces_frequency2(&s.interfaces, mass) == 0);
+  /* ... and what they will have been once the face is open, or contact in its place. */
+  check_near(cdem_interfaces_open_frequency2(&s.interfaces, mass, 0.0), 2 * 3e6 / 4, 1e-14, 0);
+  check_near(cdem_interfaces_open_frequency2(&s.interfaces, mass, 5e6), 2 * 5e6 / 4, 1e-14, 0);
   drop(&s);
 }
 

@@ -41,6 +41,13 @@ static void discs_are_drawn_as_they_are(void **unused) {
   map = map_of(&m->s, value, &picture);
   assert_true(map.diverging && map.value_min == -3 && map.value_max == 4 && !map.marks[0].rims);
   cdem_map_release(&map);
+  uint8_t hidden[300] = {1};
+  picture.hidden = hidden;
+  picture.swell = 1.5;
+  map = map_of(&m->s, value, &picture);
+  assert_int_equal(map.marks[0].marks, 299);
+  assert_true(map.marks[0].xy[0] == m->xyz[3] && map.marks[0].size[0] == 1.5 * m->radius[1]);
+  cdem_map_release(&map);
   for (int i = 0; i < 300; i++)
     value[i] = 0;
   picture = (cdem_picture){.field = CDEM_GRAIN_EFFECTIVE_STRAIN};

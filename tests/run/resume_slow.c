@@ -1,5 +1,5 @@
 /* Broken and continued runs, folders in use, folders used before. */
-#include "run/support.h"
+#include "run/resume.h"
 
 static const char box[] =
     "end: 2 ms\n"
@@ -11,27 +11,6 @@ static const char box[] =
     "stop_when: tip\n"
     "stop_below: 0.1\n"
     "probes: {tip: {group: x1, quantity: displacement, component: y}}\n";
-
-/* Wants to stop at the given call. */
-typedef struct {
-  int calls, stop_at;
-} stopper;
-
-static bool report(void *context, const char *what, int64_t done, int64_t total) {
-  stopper *s = context;
-  (void)done;
-  (void)total;
-  if (strncmp(what, "running", 7) == 0)
-    s->calls++;
-  return s->calls < s->stop_at;
-}
-
-static cdem_status run_until(const char *folder, bool resume, int stop_at, int threads,
-                             cdem_fault *fault) {
-  stopper stop = {.stop_at = stop_at};
-  const cdem_progress progress = {.context = &stop, .report = report};
-  return run_box(folder, resume, threads, &progress, fault);
-}
 
 /* All but the checkpoint, which holds the wall time. */
 static void check_same_run(const char *a, const char *b) {
@@ -45,29 +24,6 @@ static void check_same_run(const char *a, const char *b) {
     if (!same_files(one, other))
       fail_msg("%s is not %s", other, one);
   }
-}
-
-static void check_same_state(const char *a, const char *b) {
-  cdem_fault fault = {0};
-  cdem_state state[2] = {{0}};
-  const char *const folder[2] = {a, b};
-  for (int i = 0; i < 2; i++) {
-    char path[600];
-    snprintf(path, sizeof path, "%s/checkpoint.h5", in_scratch(folder[i]));
-    check_ok(cdem_read_state(path, &state[i], &fault));
-  }
-  assert_int_equal(state[0].arrays, state[1].arrays);
-  for (int64_t i = 0; i < state[0].arrays; i++) {
-    const cdem_array *one = &state[0].array[i], *other = cdem_state_find(&state[1], one->name);
-    assert_non_null(other);
-    assert_int_equal(one->count, other->count);
-    size_t bytes = (size_t)one->count * cdem_array_size(one->type);
-    if (strcmp(one->name, "run/reals") != 0 && bytes > 0 &&
-        memcmp(one->data, other->data, bytes) != 0)
-      fail_msg("'%s' differs", one->name);
-  }
-  cdem_state_release(&state[0]);
-  cdem_state_release(&state[1]);
 }
 
 static void a_continued_run_gives_the_same_bits(void **state) {
