@@ -236,10 +236,10 @@ typedef struct {
   int version;                              /* cdem_case_version */
   CDEM_CASE_LIST(cdem_case_region) regions; /* boxes whose elements are the fine region */
   int form;                                 /* interface virtual-work */
-  int64_t cycles;       /* steps of the grains a step of the body; 0: as many as are stable */
-  int rotation;         /* micro-rotation of the coarse medium: physical scaled */
-  double interface_gap; /* of interface grains to fine ones, in largest radii */
-  double absorb;        /* 1/s, of the absorbing layer; 0: none */
+  int64_t cycles;        /* steps of the grains a step of the body; 0: as many as are stable */
+  int rotation;          /* micro-rotation of the coarse medium: physical scaled */
+  double interface_gap;  /* of interface grains to fine ones, in largest radii */
+  double absorb;         /* 1/s, of the absorbing layer; 0: none */
   int64_t absorb_layers; /* elements it is wide */
 } cdem_case_coupling;
 

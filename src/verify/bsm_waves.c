@@ -25,9 +25,9 @@ static const double margin = 0.06; /* rad/s, of the pulse's band: Blackman's win
 
 typedef struct {
   cdem_bsm_chain chain;
-  int row;      /* discs in a row, before the interface grain */
-  double ends;  /* s, of the record */
-  double pulse; /* s, its length */
+  int row;          /* discs in a row, before the interface grain */
+  double ends;      /* s, of the record */
+  double pulse;     /* s, its length */
   double low, high; /* its frequencies, rad/s */
   cdem_mesh mesh;
   cdem_dem_world grains;
@@ -161,8 +161,8 @@ static cdem_status make_ties(scene *s, cdem_fault *fault) {
                                .fine = &s->grains.dem,
                                .rate = s->chain.rate / s->chain.ratio};
   int32_t *cell;
-  CDEM_TRY(cdem_absorb_cells(&s->mesh, s->cells, s->cell, s->chain.layers, &layer.cells, &cell,
-                             fault));
+  CDEM_TRY(
+      cdem_absorb_cells(&s->mesh, s->cells, s->cell, s->chain.layers, &layer.cells, &cell, fault));
   layer.layer = cell;
   cdem_status status = cdem_absorb_init(&layer, &s->absorb, fault);
   free(cell);
@@ -175,8 +175,7 @@ static cdem_status couple(scene *s, cdem_fault *fault) {
   CDEM_NEW(s->node, s->mesh.nodes, fault);
   for (int32_t n = 0; n < s->mesh.nodes; n++)
     s->node[n] = n;
-  s->held = (cdem_support){
-      .name = "all", .component = 1, .nodes = s->mesh.nodes, .node = s->node};
+  s->held = (cdem_support){.name = "all", .component = 1, .nodes = s->mesh.nodes, .node = s->node};
   CDEM_TRY(cdem_series_constant(0.0, &s->held.series, fault));
   const cdem_solver_options solver = {.body = &s->body,
                                       .thickness = 1.0,
@@ -278,8 +277,7 @@ static cdem_status listen(scene *s, double *record, int64_t steps, cdem_fault *f
   return status;
 }
 
-static cdem_status measure(scene *s, int waves, const double *ka, double *back,
-                           cdem_fault *fault) {
+static cdem_status measure(scene *s, int waves, const double *ka, double *back, cdem_fault *fault) {
   double dt = s->chain.step, *record;
   int64_t steps = (int64_t)(s->ends / s->coupling.step);
   s->pulse = 150.0;
@@ -291,8 +289,8 @@ static cdem_status measure(scene *s, int waves, const double *ka, double *back,
   CDEM_NEW(record, steps * EARS, fault);
   cdem_status status = listen(s, record, steps, fault);
   for (int i = 0; i < waves && status == CDEM_OK; i++)
-    back[i] = part_waves(record, steps, s->coupling.step,
-                         2.0 / dt * asin(dt * sin(0.5 * ka[i])), ka[i]);
+    back[i] =
+        part_waves(record, steps, s->coupling.step, 2.0 / dt * asin(dt * sin(0.5 * ka[i])), ka[i]);
   free(record);
   return status;
 }

@@ -3,9 +3,8 @@
  *
  * Unknowns of one frequency: R, the grains of the last elements of the fine region, U_0 and U_1.
  * What is left of these grains is e^(ikx) + R e^(-ikx), what is right of U_1 its outgoing wave. */
-#include "verify/bsm_waves.h"
-
 #include "base/memory.h"
+#include "verify/bsm_waves.h"
 
 #include <complex.h>
 #include <lapacke.h>
@@ -201,8 +200,7 @@ static cdem_status solve(const cdem_bsm_chain *chain, const wave *q, double ka, 
   int info = LAPACKE_zgesv(LAPACK_ROW_MAJOR, s->size, 1, s->a, s->size, pivot, s->b, 1);
   CDEM_REQUIRE(info == 0, fault, CDEM_NUMERIC, "k a = %g: no single reflected wave", ka);
   double node = cabs(s->b[q->grains + 2]);
-  *derived =
-      (cdem_bsm_reflection){cabs(s->b[0]), node * node * cimag(next) / h / sin(ka)};
+  *derived = (cdem_bsm_reflection){cabs(s->b[0]), node * node * cimag(next) / h / sin(ka)};
   return CDEM_OK;
 }
 
