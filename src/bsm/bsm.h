@@ -5,6 +5,7 @@
  * partition    which grains are calculated, which move with the coarse medium
  * tie          grains that move with a body, and their forces on it
  * traction     loads on the edge of the grains
+ * absorb       a layer of fine elements that takes away waves too short for the mesh
  * coupling     body and grains in one time, with sub-cycles
  *
  * The room knows solvers, not cases; room run makes coupled runs of cases.
@@ -12,6 +13,7 @@
 #ifndef CDEM_BSM_BSM_H
 #define CDEM_BSM_BSM_H
 
+#include "bsm/absorb.h"
 #include "bsm/coupling.h"
 #include "bsm/partition.h"
 #include "bsm/projector.h"

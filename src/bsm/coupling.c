@@ -117,6 +117,12 @@ cdem_status cdem_coupling_init(const cdem_coupling_options *options, cdem_coupli
     cdem_coupling_release(&c);
     return CDEM_MEMORY;
   }
+  cdem_status status =
+      options->absorb != NULL ? cdem_absorb_apply(options->absorb, fault) : CDEM_OK;
+  if (status != CDEM_OK) {
+    cdem_coupling_release(&c);
+    return status;
+  }
   take_reactions(&c);
   *coupling = c;
   return CDEM_OK;
@@ -160,6 +166,18 @@ static void book(cdem_coupling *c) {
   c->work += 0.5 * c->step * sum;
 }
 
+/* The grains' steps; the layer's forces, which change as fast as the grains move, with each. */
+static cdem_status step_grains(const cdem_coupling_options *o, cdem_fault *fault) {
+  if (o->absorb == NULL)
+    return cdem_dem_steps(o->fine, o->cycles, fault);
+  CDEM_TRY(cdem_absorb_apply(o->absorb, fault)); /* others may have cleared what stood there */
+  for (int s = 0; s < o->cycles; s++) {
+    CDEM_TRY(cdem_dem_steps(o->fine, 1, fault));
+    CDEM_TRY(cdem_absorb_apply(o->absorb, fault));
+  }
+  return CDEM_OK;
+}
+
 cdem_status cdem_coupling_step(cdem_coupling *c, cdem_fault *fault) {
   const cdem_coupling_options *o = &c->options;
   char limiter[64];
@@ -177,7 +195,7 @@ cdem_status cdem_coupling_step(cdem_coupling *c, cdem_fault *fault) {
                o->coarse->step);
   book(c);
   drive(c);
-  CDEM_TRY(cdem_dem_steps(o->fine, o->cycles, fault));
+  CDEM_TRY(step_grains(o, fault));
   CDEM_REQUIRE(fabs(o->cycles * o->fine->step - c->step) <= 1e-9 * c->step, fault, CDEM_USAGE,
                "the step of the grains has changed to %.17g s; coupled grains have a fixed step",
                o->fine->step);
@@ -196,6 +214,8 @@ cdem_status cdem_coupling_save(const cdem_coupling *coupling, cdem_state *state,
 cdem_status cdem_coupling_restore(cdem_coupling *coupling, const cdem_state *state,
                                   cdem_fault *fault) {
   CDEM_TRY(cdem_state_get(state, "coupling/work", CDEM_ARRAY_REAL, 1, &coupling->work, fault));
+  if (coupling->options.absorb != NULL)
+    CDEM_TRY(cdem_absorb_restored(coupling->options.absorb, fault));
   take_reactions(coupling);
   return CDEM_OK;
 }

@@ -37,7 +37,7 @@
 #ifndef CDEM_BSM_COUPLING_H
 #define CDEM_BSM_COUPLING_H
 
-#include "bsm/projector.h"
+#include "bsm/absorb.h"
 #include "bsm/tie.h"
 #include "cdem/solver.h"
 #include "dem/dem.h"
@@ -53,6 +53,7 @@ typedef struct {
   int cycles;               /* m >= 1 */
   const cdem_tie *tie;      /* interface grains, which are driven, to the body */
   const cdem_tie *fine_tie; /* virtual work: fine grains to the body's nodes; else NULL */
+  cdem_absorb *absorb;      /* a layer that takes away short waves; NULL: none */
   double most_step;         /* s, as cdem_coupling_limit says; checked against the body's step */
 } cdem_coupling_options;
 

@@ -240,10 +240,12 @@ typedef struct {
   int version;                              /* cdem_case_version */
   CDEM_CASE_LIST(cdem_case_region) regions; /* boxes whose elements are the fine region */
   int form;                                 /* interface virtual-work */
-  int64_t cycles;       /* steps of the grains a step of the body; 0: as many as are stable */
-  int interface_motion; /* within a step of the body: velocity acceleration */
-  int rotation;         /* micro-rotation of the coarse medium: physical scaled */
-  double interface_gap; /* of interface grains to fine ones, in largest radii */
+  int64_t cycles;        /* steps of the grains a step of the body; 0: as many as are stable */
+  int interface_motion;  /* within a step of the body: velocity acceleration */
+  int rotation;          /* micro-rotation of the coarse medium: physical scaled */
+  double interface_gap;  /* of interface grains to fine ones, in largest radii */
+  double absorb;         /* 1/s, of the absorbing layer; 0: none */
+  int64_t absorb_layers; /* elements it is wide */
 } cdem_case_coupling;
 
 /* probes: NAME: a column of history.csv */

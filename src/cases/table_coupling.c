@@ -52,6 +52,16 @@ static const cdem_case_key keys[] = {
      .help = "Grains nearer to a fine grain than this, in largest radii, are interface grains; in "
              "random packings less lets grains escape.",
      .example = "0.3"},
+    {COUPLING(absorb), .kind = CDEM_KEY_NUMBER, .dimension = RATE, .fallback = 0.0, NOT_NEGATIVE,
+     GRAIN,
+     .help =
+         "Takes motions that the mesh cannot express out of the grains at this rate, in a layer "
+         "along the coarse medium, before they are thrown back; 0: no layer. About 5 times "
+         "wave speed by element length for one layer of elements, 2 times for two. It resists "
+         "slip bands that cross the layer, too: for grains that stay together there.",
+     .example = "2000 1/s"},
+    {COUPLING(absorb_layers), .kind = CDEM_KEY_INTEGER, .fallback = 1, AT_LEAST(1),
+     .help = "Width of that layer, in elements of the fine region.", .example = "2"},
 };
 const cdem_case_section cdem_section_coupling =
     SECTION("coupling", cdem_case_coupling, keys, .help = "Grains inside a body.");

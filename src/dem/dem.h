@@ -166,6 +166,8 @@ void cdem_dem_drive(cdem_dem *dem, int64_t grain, const cdem_dem_motion *motion,
                     const cdem_dem_motion *rate);
 /* Force and moment on some grains at t_n, of all contacts, bonds and walls: out [count][6]. */
 void cdem_dem_forces_on(const cdem_dem *dem, int64_t count, const int32_t *grain, double *out);
+/* Velocity and spin of some grains at t_n - dt/2: out [count][6]. */
+void cdem_dem_motions_of(const cdem_dem *dem, int64_t count, const int32_t *grain, double *out);
 /* Bound of the stiffness of the contacts and bonds of each grain now, against a motion of the grain
  * alone: N/m, [grains] by id; and, NULL allowed, against its rotation, N m/rad. */
 cdem_status cdem_dem_stiffness(const cdem_dem *dem, double *resists, double *turning,

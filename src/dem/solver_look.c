@@ -172,3 +172,9 @@ void cdem_dem_forces_on(const cdem_dem *dem, int64_t count, const int32_t *grain
   for (int64_t k = 0; k < count; k++)
     memcpy(out + 6 * k, cdem_force(s, s->slot[grain[k]]), 6 * sizeof *out);
 }
+
+void cdem_dem_motions_of(const cdem_dem *dem, int64_t count, const int32_t *grain, double *out) {
+  const cdem_dem_store *s = dem->store;
+  for (int64_t k = 0; k < count; k++)
+    memcpy(out + 6 * k, cdem_motion(s, s->slot[grain[k]]), 6 * sizeof *out);
+}

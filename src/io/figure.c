@@ -41,6 +41,10 @@ typedef struct {
 
 /* ---- data ---- */
 
+static bool has_rings(const cdem_curve *curve) {
+  return curve->style >= CDEM_CURVE_RINGS;
+}
+
 static bool is_drawn(const cdem_curve *curve, int64_t i) {
   return isfinite(curve->x[i]) && isfinite(curve->y[i]);
 }
@@ -161,7 +165,7 @@ static int64_t covered(const cdem_panel *panel, range x, range y, const place *a
   for (int c = 0; c < panel->curves; c++) {
     const cdem_curve *curve = &panel->curve[c];
     for (int64_t i = 0; i < curve->points; i++) {
-      bool line = i > 0 && is_drawn(curve, i) && is_drawn(curve, i - 1);
+      bool line = !has_rings(curve) && i > 0 && is_drawn(curve, i) && is_drawn(curve, i - 1);
       for (int s = 0; s < SAMPLES && (line || (s == 0 && is_drawn(curve, i))); s++) {
         double t = (double)s / SAMPLES;
         double px = curve->x[i] + (line ? t * (curve->x[i - 1] - curve->x[i]) : 0.0);
@@ -207,9 +211,12 @@ static void put_plot(FILE *stream, const cdem_panel *panel, int first, const int
     cdem_gnuplot_column(stream, 1, power[0]);
     fputc(':', stream);
     cdem_gnuplot_column(stream, 2, power[1]);
-    fprintf(stream, " with lines lw %s lc rgb '%s' dt %s %s", guide ? "0.7" : "1.5",
-            guide ? "#9a9a9a" : styles[style].colour, guide ? "solid" : styles[style].dashes,
-            has_entry(curve) ? "title " : "notitle");
+    if (has_rings(curve))
+      fprintf(stream, " with points pt 6 ps 0.75 lw 1.2 lc rgb '%s' ", styles[style].colour);
+    else
+      fprintf(stream, " with lines lw %s lc rgb '%s' dt %s ", guide ? "0.7" : "1.5",
+              guide ? "#9a9a9a" : styles[style].colour, guide ? "solid" : styles[style].dashes);
+    fputs(has_entry(curve) ? "title " : "notitle", stream);
     if (has_entry(curve))
       cdem_gnuplot_text(stream, curve->title);
   }

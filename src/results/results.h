@@ -75,6 +75,8 @@ void cdem_check_list_release(cdem_check_list *list);
 /* False for NaN. */
 bool cdem_check_passes(const cdem_check *check);
 
+enum { CDEM_CURVE_RINGS = 16 }; /* a multiple of the number of colours */
+
 /* A figure: panels side by side, each with curves over a common x. All strings are copied by
  * nobody: they must outlive the drawing. Texts are UTF-8 and know gnuplot's markup: k_1 and
  * k_{12} are subscripts, m^2 is raised; a literal underscore is written \_. */
@@ -82,7 +84,8 @@ typedef struct {
   const char *title;   /* legend entry */
   const double *x, *y; /* [points]; NaN breaks the line */
   int64_t points;
-  int style; /* colour and dash index, 0..7; -1: thin grey guide line */
+  int style; /* colour and dash index, 0..7; -1: thin grey guide line; CDEM_CURVE_RINGS + 0..7:
+                rings of that colour at the points */
 } cdem_curve;
 
 typedef struct {

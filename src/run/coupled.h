@@ -57,6 +57,7 @@ typedef struct {
   cdem_run_edge_load *load;
   cdem_projector projector;
   cdem_tie tie, fine_tie;
+  cdem_absorb absorb; /* zero: none */
   cdem_coupling coupling;
   cdem_strain_reference *strain;
   int cycles;

@@ -278,6 +278,8 @@ void cdem_run_coupled_edge(cdem_run_coupled *c, double from, double to) {
   }
   if (c->loads > 0)
     memset(dem->applied, 0, 6 * (size_t)dem->grains * sizeof *dem->applied);
+  if (c->loads > 0 && c->absorb.fine != NULL)
+    cdem_absorb_forget(&c->absorb);
   for (int64_t l = 0; l < c->loads; l++) {
     const cdem_run_edge_load *load = &c->load[l];
     double traction[3] = {0}, pressure = 0.0;

@@ -70,6 +70,7 @@ static void release(cdem_run_setup *run) {
   if (c == NULL)
     return;
   cdem_coupling_release(&c->coupling);
+  cdem_absorb_release(&c->absorb);
   cdem_tie_release(&c->tie);
   cdem_tie_release(&c->fine_tie);
   cdem_projector_release(&c->projector);

@@ -176,6 +176,48 @@ static cdem_status set_steps(cdem_run_coupled *c, double step, cdem_fault *fault
   return status == CDEM_INPUT ? cdem_case_blame(&c->run->cases, "step", fault) : status;
 }
 
+/* ---- the absorbing layer ---- */
+
+static cdem_status make_layer(cdem_run_coupled *c, cdem_absorb_options *layer, cdem_fault *fault) {
+  const cdem_partition *p = &c->partition;
+  int32_t *cell;
+  double *xi;
+  CDEM_NEW(cell, c->fine, fault);
+  xi = cdem_allocate(3 * c->fine, sizeof *xi, fault);
+  if (xi == NULL) {
+    free(cell);
+    return CDEM_MEMORY;
+  }
+  for (int64_t a = 0; a < c->fine; a++) {
+    cell[a] = p->cell[c->fine_grain[a]];
+    memcpy(xi + 3 * a, p->xi + 3 * (int64_t)c->fine_grain[a], 3 * sizeof *xi);
+  }
+  layer->cell = cell;
+  layer->xi = xi;
+  cdem_status status = cdem_absorb_init(layer, &c->absorb, fault);
+  free(cell);
+  free(xi);
+  return status == CDEM_INPUT ? cdem_case_blame(&c->run->cases, "coupling.absorb", fault) : status;
+}
+
+static cdem_status absorb(cdem_run_coupled *c, cdem_fault *fault) {
+  const cdem_case_coupling *v = cdem_run_coupled_values(c);
+  cdem_absorb_options layer = {.mesh = &c->body->mesh,
+                               .grains = c->fine,
+                               .grain = c->fine_grain,
+                               .fine = &c->grains->dem,
+                               .rate = v->absorb};
+  int32_t *cell;
+  if (!(v->absorb > 0.0))
+    return CDEM_OK;
+  CDEM_TRY(cdem_absorb_cells(&c->body->mesh, c->fine_cells, c->fine_cell, (int)v->absorb_layers,
+                             &layer.cells, &cell, fault));
+  layer.layer = cell;
+  cdem_status status = make_layer(c, &layer, fault);
+  free(cell);
+  return status;
+}
+
 static cdem_status couple(cdem_run_coupled *c, double step, cdem_fault *fault) {
   const cdem_case_coupling *v = cdem_run_coupled_values(c);
   bool whole = v->form == CDEM_BSM_VIRTUAL_WORK;
@@ -188,6 +230,7 @@ static cdem_status couple(cdem_run_coupled *c, double step, cdem_fault *fault) {
   CDEM_TRY(choose_cycles(c, step, fault));
   CDEM_TRY(set_steps(c, step, fault));
   CDEM_TRY(make_body(c, c->body->rotation_factor, c->cycles * c->grains->dem.step, fault));
+  CDEM_TRY(absorb(c, fault));
   const cdem_coupling_options options = {.coarse = &c->body->solver,
                                          .fine = &c->grains->dem,
                                          .form = whole ? CDEM_BSM_VIRTUAL_WORK : CDEM_BSM_INTERFACE,
@@ -195,6 +238,7 @@ static cdem_status couple(cdem_run_coupled *c, double step, cdem_fault *fault) {
                                          .cycles = c->cycles,
                                          .tie = &c->tie,
                                          .fine_tie = whole ? &c->fine_tie : NULL,
+                                         .absorb = v->absorb > 0.0 ? &c->absorb : NULL,
                                          .most_step = c->coarse_limit};
   return cdem_coupling_init(&options, &c->coupling, fault);
 }

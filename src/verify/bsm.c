@@ -12,6 +12,7 @@
 #define FULL      "grains everywhere, the same run"
 #define PATCH     "Providas & Kattis 2002"
 #define HOLE      "Kaloni & Ariman 1967, Eringen 1968"
+#define WAVES     "docs/theory/bsm-waves.md, "
 
 #define MEASURE(name) .measure = cdem_bsm_measure_##name
 
@@ -163,6 +164,46 @@ static const cdem_verification checks[] = {
      .parameter = 120},
     {"patch in space, sheared, h = 24 r", "bound of 5 %", 0, 0.05, MEASURE(solid_patch),
      .parameter = 121},
+    /* Waves through the interface: the derived reflection, then the solvers' own. What is left of
+     * the measured ones comes from the end of the record and is largest next to the cutoff. */
+    {"interface, long waves: |R| over k a/4 (1 - a/(2 h))", WAVES "eq. (15)", 1, 1e-4,
+     MEASURE(waves_derived), .parameter = 0},
+    {"interface, 2 b - b^2/h = a/2: |R| over k a of long waves", WAVES "eq. (14)", 0, 1e-3,
+     MEASURE(waves_derived), .parameter = 1},
+    {"interface beyond the cutoff: |R| - 1", WAVES "eq. (9)", 0, 1e-12, MEASURE(waves_derived),
+     .parameter = 2},
+    {"interface beyond the cutoff, m = 10 at the velocity of the step: |R| - 1", WAVES "eq. (11)",
+     0, 1e-12, MEASURE(waves_derived), .parameter = 7},
+    {"interface: energy that comes back and that goes on", "energy", 0, 1e-12,
+     MEASURE(waves_derived), .parameter = 3},
+    {"absorbing layer of 1 element, k h > 4: energy that comes back", WAVES "section 7", 0, 0.1,
+     MEASURE(waves_derived), .parameter = 4},
+    {"absorbing layer of 2 elements, k h > 5: energy that comes back", WAVES "section 7", 0, 0.1,
+     MEASURE(waves_derived), .parameter = 5},
+    {"absorbing layer of 2 elements, k h < 0.5: energy that is lost", WAVES "section 7", 0, 1e-3,
+     MEASURE(waves_derived), .parameter = 6},
+    {"waves, h = 5 a: measured |R| less the derived", WAVES "eqs. (5)-(9)", 0, 5e-3, MEASURE(waves),
+     .parameter = 0},
+    {"waves, h = 5 a, virtual work: measured |R| less the derived", WAVES "eq. (16)", 0, 5e-3,
+     MEASURE(waves), .parameter = 1},
+    {"waves, h = 5 a, layer of 1 element: measured |R| less the derived", WAVES "eq. (17)", 0, 5e-3,
+     MEASURE(waves), .parameter = 2},
+    {"waves, h = 5 a, beyond the cutoff: energy that enters the body", "energy", 0, 1e-6,
+     MEASURE(waves_energy), .parameter = 0},
+    {"waves, h = 5 a: books of body, grains and exchange", "energy", 0, 1e-6, MEASURE(waves_energy),
+     .parameter = 1, .slow = true},
+    {"waves, h = 10 a: measured |R| less the derived", WAVES "eqs. (5)-(9)", 0, 3e-3,
+     MEASURE(waves), .parameter = 3, .slow = true},
+    {"waves, h = 23 a: measured |R| less the derived", WAVES "eqs. (5)-(9)", 0, 5e-3,
+     MEASURE(waves), .parameter = 4, .slow = true},
+    {"waves, h = 5 a, m = 10: measured |R| less the derived", WAVES "eqs. (10), (12), (13)", 0,
+     5e-3, MEASURE(waves), .parameter = 5, .slow = true},
+    {"waves, h = 10 a, layer of 2 elements: measured |R| less the derived", WAVES "eq. (17)", 0,
+     3e-3, MEASURE(waves), .parameter = 6, .slow = true},
+    {"waves, h = 5 a, b = a/4: measured |R| less the derived", WAVES "eqs. (5)-(9)", 0, 5e-3,
+     MEASURE(waves), .parameter = 7, .slow = true},
+    {"waves, h = 10 a, k a = 2: measured |R| less the derived", WAVES "eqs. (5)-(9)", 0, 1e-3,
+     MEASURE(waves), .parameter = 8, .slow = true},
 };
 
 const cdem_verify_group cdem_verify_bsm = {

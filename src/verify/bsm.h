@@ -32,7 +32,14 @@
   X(solid_lattice)  /* bonded cubic lattice, free to spin: 0 c11 in kn/(2 r), 1 c12 in the same, 2 \
                      c44 in ks/(4 r) */                                                            \
   X(solid_patch)    /* 10 spheres along an element + field (0 pulled across a face, 1 sheared, 2   \
-                     turned): largest residual of an edge node in traction h^2 */
+                     turned): largest residual of an edge node in traction h^2 */                  \
+  X(waves)          /* |R| of the interface, largest difference of measured and derived over some  \
+                     waves, by the table in bsm_waves_checks.c */                                  \
+  X(waves_energy) /* h = 5 a, a pulse above the cutoff: 0 part of its energy that enters the body, \
+                   1 error of the books */                                                         \
+  X(waves_derived) /* h = 10 a: 0 slope of |R| over its limit, 1 |R|/(k a) at the matched place,   \
+                    above the cutoff: 2 largest of | |R| - 1 |, 4 and 5 largest |R|^2 with layers, \
+                    7 as 2, m = 10; below it: 3 error of the sum of energies, 6 loss in layers */
 
 #define X(name)                                                                                    \
   cdem_status cdem_bsm_measure_##name(int parameter, double *value, cdem_fault *fault);
