@@ -81,7 +81,7 @@ static const cdem_verification checks[] = {
      .parameter = 0},
     {"waves, h = 5 a, virtual work: measured |R| less the derived", WAVES "eq. (16)", 0, 5e-3,
      MEASURE(waves), .parameter = 1},
-    {"waves, h = 5 a, layer of 1 element: measured |R| less the derived", WAVES "eq. (17)", 0, 5e-3,
+    {"waves, h = 5 a, layer of 1 element: measured |R| less the derived", WAVES "eq. (17)", 0, 8e-3,
      MEASURE(waves), .parameter = 2},
     {"waves, h = 5 a, beyond the cutoff: energy that enters the body", "energy", 0, 1e-6,
      MEASURE(waves_energy), .parameter = 0},
@@ -103,7 +103,8 @@ static const cdem_verification checks[] = {
 
 const cdem_verify_group cdem_verify_bsm = {
     .name = "bsm",
-    .summary = "grains inside a continuum: the Cosserat medium around them",
+    .summary =
+        "grains inside a continuum: the Cosserat medium around them, waves through the interface",
     .checks = sizeof checks / sizeof checks[0],
     .check = checks,
 };
