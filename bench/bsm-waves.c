@@ -17,7 +17,6 @@ enum { LINE = 400, MOST_POINTS = 24, MOST_SERIES = 5 };
 typedef struct {
   const char *title;
   cdem_bsm_chain chain;
-  bool derived_only;
 } series;
 
 typedef struct {
@@ -32,57 +31,57 @@ typedef struct {
   series chain[MOST_SERIES];
 } panel;
 
-static const panel panels[] = {
-    {.title = "Element length",
-     .x_label = "k a",
-     .y_label = "|R|",
-     .most = 2.0,
-     .y_max = 1.1,
-     .points = 15,
-     .at = {0.02, 0.05, 0.1, 0.15, 0.25, 0.35, 0.5, 0.65, 0.8, 1.0, 1.2, 1.4, 1.6, 1.8, 2.0},
-     .count = 3,
-     .chain = {{"h = 5 a", {.ratio = 5, .grains = 800}, false},
-               {"h = 10 a", {.ratio = 10, .grains = 800}, false},
-               {"h = 23 a", {.ratio = 23, .grains = 1150}, false}}},
-    {.title = "Forms, h = 10 a",
-     .x_label = "k h",
-     .y_label = "|R|",
-     .by_element = true,
-     .most = 3.0,
-     .y_max = 1.1,
-     .points = 11,
-     .at = {0.2, 0.5, 0.75, 1.0, 1.25, 1.5, 1.7, 1.85, 2.2, 2.5, 3.0},
-     .count = 3,
-     .chain = {{"interface", {.ratio = 10}, false},
-               {"virtual work", {.ratio = 10, .form = CDEM_BSM_VIRTUAL_WORK}, false},
-               {"b = a/4", {.ratio = 10, .place = 0.25}, false}}},
-    {.title = "Cycles, h = 5 a",
-     .x_label = "k a",
-     .y_label = "|R|",
-     .most = 2.0,
-     .y_max = 1.25,
-     .points = 15,
-     .at = {0.02, 0.05, 0.1, 0.15, 0.25, 0.35, 0.5, 0.65, 0.8, 1.0, 1.2, 1.4, 1.6, 1.8, 2.0},
-     .count = 3,
-     .chain = {{"m = 1", {.ratio = 5, .step = 0.1, .grains = 800}, false},
-               {"m = 10, eq. (10)", {.ratio = 5, .step = 0.1, .cycles = 10, .grains = 800}, false},
-               {"m = 10, eq. (11)",
-                {.ratio = 5, .step = 0.1, .cycles = 10, .steady = true},
-                true}}},
-    {.title = "Absorbing layer, h = 10 a",
-     .x_label = "k h",
-     .y_label = "energy back, dB",
-     .by_element = true,
-     .decibels = true,
-     .most = 16.0,
-     .points = 17,
-     .at = {0.5, 1.0, 1.5, 2.2, 2.6, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0, 14.0,
-            16.0},
-     .count = 4,
-     .chain = {{"no layer", {.ratio = 10}, false},
-               {"1 element, c = 5 c_0/h", {.ratio = 10, .layers = 1, .rate = 5.0}, false},
-               {"2 elements, c = 2 c_0/h", {.ratio = 10, .layers = 2, .rate = 2.0}, false},
-               {"3 elements, c = 1.5 c_0/h", {.ratio = 10, .layers = 3, .rate = 1.5}, false}}}};
+static const panel panels[] =
+    {{.title = "Element length",
+      .x_label = "k a",
+      .y_label = "|R|",
+      .most = 2.0,
+      .y_max = 1.1,
+      .points = 15,
+      .at = {0.02, 0.05, 0.1, 0.15, 0.25, 0.35, 0.5, 0.65, 0.8, 1.0, 1.2, 1.4, 1.6, 1.8, 2.0},
+      .count = 3,
+      .chain = {{"h = 5 a", {.ratio = 5, .grains = 800}},
+                {"h = 10 a", {.ratio = 10, .grains = 800}},
+                {"h = 23 a", {.ratio = 23, .grains = 1150}}}},
+     {.title = "Forms, h = 10 a",
+      .x_label = "k h",
+      .y_label = "|R|",
+      .by_element = true,
+      .most = 3.0,
+      .y_max = 1.1,
+      .points = 11,
+      .at = {0.2, 0.5, 0.75, 1.0, 1.25, 1.5, 1.7, 1.85, 2.2, 2.5, 3.0},
+      .count = 3,
+      .chain = {{"interface", {.ratio = 10}},
+                {"virtual work", {.ratio = 10, .form = CDEM_BSM_VIRTUAL_WORK}},
+                {"b = a/4", {.ratio = 10, .place = 0.25}}}},
+     {.title = "Cycles, h = 5 a",
+      .x_label = "k a",
+      .y_label = "|R|",
+      .most = 2.0,
+      .y_max = 1.25,
+      .points = 15,
+      .at = {0.02, 0.05, 0.1, 0.15, 0.25, 0.35, 0.5, 0.65, 0.8, 1.0, 1.2, 1.4, 1.6, 1.8, 2.0},
+      .count = 3,
+      .chain =
+          {{"m = 1", {.ratio = 5, .step = 0.1, .grains = 800}},
+           {"m = 10, eq. (10)",
+            {.ratio = 5, .step = 0.1, .cycles = 10, .grains = 800, .way = CDEM_BSM_ACCELERATION}},
+           {"m = 10, eq. (11)", {.ratio = 5, .step = 0.1, .cycles = 10, .grains = 800}}}},
+     {.title = "Absorbing layer, h = 10 a",
+      .x_label = "k h",
+      .y_label = "energy back, dB",
+      .by_element = true,
+      .decibels = true,
+      .most = 16.0,
+      .points = 17,
+      .at = {0.5, 1.0, 1.5, 2.2, 2.6, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0, 14.0,
+             16.0},
+      .count = 4,
+      .chain = {{"no layer", {.ratio = 10}},
+                {"1 element, c = 5 c_0/h", {.ratio = 10, .layers = 1, .rate = 5.0}},
+                {"2 elements, c = 2 c_0/h", {.ratio = 10, .layers = 2, .rate = 2.0}},
+                {"3 elements, c = 1.5 c_0/h", {.ratio = 10, .layers = 3, .rate = 1.5}}}}};
 
 enum { PANELS = sizeof panels / sizeof *panels };
 
@@ -104,8 +103,6 @@ static cdem_status fill(const panel *p, const series *s, numbers *to, cdem_fault
     CDEM_TRY(cdem_bsm_waves_derive(&s->chain, to->x[i] / scale, &r, fault));
     to->y[i] = shown(p, r.back);
   }
-  if (s->derived_only)
-    return CDEM_OK;
   for (int i = 0; i < p->points; i++)
     ka[i] = p->at[i] / scale;
   CDEM_TRY(cdem_bsm_waves_measure(&s->chain, p->points, ka, to->measured, fault));
@@ -131,12 +128,11 @@ static cdem_status draw(const char *folder, cdem_fault *fault) {
                                         .points = LINE,
                                         .style = k};
     for (int k = 0; k < p->count; k++)
-      if (!p->chain[k].derived_only)
-        curve[i][curves++] = (cdem_curve){.title = NULL,
-                                          .x = p->at,
-                                          .y = all[i][k].measured,
-                                          .points = p->points,
-                                          .style = CDEM_CURVE_RINGS + k};
+      curve[i][curves++] = (cdem_curve){.title = NULL,
+                                        .x = p->at,
+                                        .y = all[i][k].measured,
+                                        .points = p->points,
+                                        .style = CDEM_CURVE_RINGS + k};
     drawn[i] = (cdem_panel){.title = p->title,
                             .x_label = p->x_label,
                             .y_label = p->y_label,

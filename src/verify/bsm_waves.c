@@ -187,6 +187,7 @@ static cdem_status couple(scene *s, cdem_fault *fault) {
   cdem_coupling_options options = {.coarse = &s->solver,
                                    .fine = &s->grains.dem,
                                    .form = s->chain.form,
+                                   .way = s->chain.way,
                                    .cycles = s->chain.cycles,
                                    .tie = &s->tie,
                                    .fine_tie = whole ? &s->fine_tie : NULL,

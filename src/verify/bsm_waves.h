@@ -15,9 +15,8 @@ typedef struct {
   int ratio;    /* n = h/a, at least 2 */
   double place; /* of the interface grain beyond the edge, in a; 0: 1/2, the continued packing */
   cdem_bsm_form form;
-  int cycles;  /* m; 0: 1 */
-  bool steady; /* derived only: interface grains move at the velocity of the body's step, instead of
-                  from that of its start with constant acceleration, as the coupling moves them */
+  cdem_bsm_way way; /* of interface grains within a step of the body */
+  int cycles;       /* m; 0: 1 */
   double step; /* of the grains, s; 0: 0.2, which is a tenth of a period of the shortest wave */
   int layers;  /* of the absorbing layer, elements; 0: none */
   double rate; /* its c in units of (speed of long waves)/h */

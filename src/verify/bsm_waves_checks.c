@@ -19,10 +19,13 @@ static const struct {
     {{.ratio = 5, .grains = 280, .layers = 1, .rate = 4.0}, 6, {0.1, 0.2, 0.3, 0.6, 0.8, 1.0}},
     {{.ratio = 10}, 8, {0.02, 0.05, 0.1, 0.15, 0.3, 0.5, 1.0, 1.5}},
     {{.ratio = 23, .grains = 1150}, 8, {0.02, 0.04, 0.06, 0.15, 0.3, 0.5, 1.0, 1.5}},
-    {{.ratio = 5, .cycles = 10, .step = 0.1}, 8, {0.05, 0.1, 0.2, 0.3, 0.6, 0.8, 1.0, 1.2}},
+    {{.ratio = 5, .cycles = 10, .step = 0.1, .way = CDEM_BSM_ACCELERATION},
+     8,
+     {0.05, 0.1, 0.2, 0.3, 0.6, 0.8, 1.0, 1.2}},
     {{.ratio = 10, .layers = 2, .rate = 2.0}, 8, {0.02, 0.05, 0.1, 0.15, 0.3, 0.5, 1.0, 1.5}},
     {{.ratio = 5, .place = 0.25}, 8, {0.05, 0.1, 0.2, 0.3, 0.6, 0.8, 1.0, 1.2}},
     {{.ratio = 10, .grains = 1600}, 1, {2.0}},
+    {{.ratio = 5, .cycles = 10, .step = 0.1}, 8, {0.05, 0.1, 0.2, 0.3, 0.6, 0.8, 1.0, 1.2}},
 };
 
 cdem_status cdem_bsm_measure_waves(int parameter, double *value, cdem_fault *fault) {
@@ -74,7 +77,7 @@ cdem_status cdem_bsm_measure_waves_derived(int parameter, double *value, cdem_fa
   const cdem_bsm_chain plain = {.ratio = 10};
   const cdem_bsm_chain thin = {.ratio = 10, .layers = 1, .rate = 5.5};
   const cdem_bsm_chain thick = {.ratio = 10, .layers = 2, .rate = 2.0};
-  const cdem_bsm_chain even = {.ratio = 10, .cycles = 10, .step = 0.1, .steady = true};
+  const cdem_bsm_chain even = {.ratio = 10, .cycles = 10, .step = 0.1};
   /* 2 b - b^2/h = a/2 */
   const cdem_bsm_chain matched = {.ratio = 10, .place = 10.0 - sqrt(95.0)};
   const double long_wave = 1e-4;

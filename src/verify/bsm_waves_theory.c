@@ -16,15 +16,15 @@ typedef double complex number;
 static const double pi = 3.14159265358979323846;
 
 typedef struct {
-  int n, grains; /* per element, and of the unknowns */
-  double place;  /* b/a */
-  double step;   /* of the grains */
-  bool steady;   /* eq. (11) instead of (10) */
-  double w;      /* angular frequency */
-  double fine2;  /* squared frequency that the leapfrog of the grains has, eq. (5) */
-  double body2;  /* ... and that of the body, m times as slow */
-  number first;  /* part of the interface grains' motion at w itself, eq. (12) */
-  number others; /* sum over the others of c_p mu_p */
+  int n, grains;    /* per element, and of the unknowns */
+  double place;     /* b/a */
+  double step;      /* of the grains */
+  cdem_bsm_way way; /* eq. (11), or with acceleration (10) */
+  double w;         /* angular frequency */
+  double fine2;     /* squared frequency that the leapfrog of the grains has, eq. (5) */
+  double body2;     /* ... and that of the body, m times as slow */
+  number first;     /* part of the interface grains' motion at w itself, eq. (12) */
+  number others;    /* sum over the others of c_p mu_p */
 } wave;
 
 static double leapfrog2(double w, double step) {
@@ -47,7 +47,7 @@ static number outgoing(double cosine, double sign) {
 static number at_step(const wave *q, int m, int s) {
   double long_step = m * q->step, t = s * q->step;
   double turn = 0.5 * q->w * long_step;
-  if (q->steady)
+  if (q->way == CDEM_BSM_VELOCITY)
     return 1.0 + (cexp(-2.0 * I * turn) - 1.0) * t / long_step;
   number velocity = -I * sin(2.0 * turn) / long_step;
   double acceleration = -4.0 / (long_step * long_step) * sin(turn) * sin(turn);
@@ -211,7 +211,7 @@ cdem_status cdem_bsm_waves_derive(const cdem_bsm_chain *chain, double ka,
             .grains = chain->ratio * (chain->layers > 1 ? chain->layers : 1),
             .place = chain->place > 0.0 ? chain->place : 0.5,
             .step = chain->step > 0.0 ? chain->step : 0.2,
-            .steady = chain->steady};
+            .way = chain->way};
   linear_system s = {.size = q.grains + 3};
   lapack_int *pivot;
   q.w = 2.0 / q.step * asin(q.step * sin(0.5 * ka));
