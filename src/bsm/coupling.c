@@ -148,9 +148,14 @@ static void book(cdem_coupling *c) {
   c->work += 0.5 * c->step * sum;
 }
 
-cdem_status cdem_coupling_step(cdem_coupling *c, cdem_fault *fault) {
+static double now(const cdem_coupling *c) {
+  return c->options.clock != NULL ? c->options.clock() : 0.0;
+}
+
+static cdem_status step_coarse(cdem_coupling *c, cdem_fault *fault) {
   const cdem_coupling_options *o = &c->options;
   char limiter[64];
+  double begun = now(c);
   cdem_solver_velocity(o->coarse, c->before);
   CDEM_TRY(cdem_solver_step(o->coarse, fault));
   if (!(o->coarse->step >= (1.0 - 1e-9) * c->step)) {
@@ -160,11 +165,22 @@ cdem_status cdem_coupling_step(cdem_coupling *c, cdem_fault *fault) {
                      "become unstable: the limit is now %.4g s, set by %s; take fewer cycles",
                      o->coarse->time, o->cycles, c->step, limit, limiter);
   }
+  c->cost.coarse += now(c) - begun;
+  return CDEM_OK;
+}
+
+cdem_status cdem_coupling_step(cdem_coupling *c, cdem_fault *fault) {
+  CDEM_TRY(step_coarse(c, fault));
+  double begun = now(c);
   book(c);
   drive(c);
-  CDEM_TRY(cdem_dem_steps(o->fine, o->cycles, fault));
+  double driven = now(c);
+  CDEM_TRY(cdem_dem_steps(c->options.fine, c->options.cycles, fault));
+  double moved = now(c);
   take_reactions(c);
   book(c);
+  c->cost.fine += moved - driven;
+  c->cost.transfer += driven - begun + now(c) - moved;
   return CDEM_OK;
 }
 

@@ -45,7 +45,9 @@ typedef struct {
   cdem_grain_field field;
   const cdem_strain_reference *strain; /* for fields of strain, else NULL */
   const char *title;                   /* NULL: none. Borrowed by the map */
-  double value_min, value_max;         /* equal: automatic */
+  double value_min, value_max;         /* equal: automatic. Chains: pushes in N in place of those
+                                          over their mean, a fifth of the larger as wide as the mean
+                                          else; arrows are as long as it says */
   double view[3], up[3]; /* 3-D, from the eye into the picture; 0 0 0: along y, z up */
   bool slice;            /* 3-D: cut across `view` through `through` */
   bool middle;           /* ... or through the middle of the grains */

@@ -18,6 +18,7 @@ typedef struct {
   double plane;   /* depth of the cut */
   double reach;   /* half the thickness of what chains and arrows are shown of */
   double mean_radius;
+  double most; /* upper end of the range that is given; 0: none */
   cdem_region window;
 } cdem_picture_eye;
 

@@ -98,6 +98,7 @@ cdem_status cdem_run_coupled_look(const cdem_run_coupled *c, cdem_run_fine *foun
                                   cdem_fault *fault);
 cdem_status cdem_run_coupled_frames(cdem_run_setup *run, int64_t index, const cdem_frame_sink *sink,
                                     cdem_fault *fault);
-cdem_status cdem_run_coupled_pictures(cdem_run_setup *run, const char *folder, cdem_fault *fault);
+cdem_status cdem_run_coupled_pictures(cdem_run_setup *run, const char *folder, const char *tag,
+                                      cdem_fault *fault);
 
 #endif
