@@ -53,6 +53,7 @@ static cdem_status eye_init(const cdem_snapshot *s, const cdem_picture *p, cdem_
   *eye = (cdem_picture_eye){.right = {1, 0, 0}, .up = {0, 1, 0}, .into = {0, 0, -1}};
   eye->flat = s->dim == 2;
   eye->window = p->window;
+  eye->left_out = p->left_out;
   eye->most = p->value_min < p->value_max ? p->value_max : 0.0;
   for (int64_t i = 0; i < s->grains; i++)
     eye->mean_radius += s->radius[i] / (double)s->grains;
@@ -107,6 +108,8 @@ static bool is_near(const cdem_picture_eye *eye, const double xyz[3]) {
 /* Radius of the circle that is seen of a grain; 0: it is not cut. */
 static double radius_seen(const cdem_picture_eye *eye, const cdem_snapshot *s, int64_t i) {
   double r = s->radius[i], d = depth_of(eye, s->xyz + 3 * i);
+  if (eye->left_out != NULL && eye->left_out[i])
+    return 0.0;
   return fabs(d) < r && cdem_picture_shows(eye, s->xyz + 3 * i) ? sqrt((r - d) * (r + d)) : 0.0;
 }
 

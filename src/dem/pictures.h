@@ -52,7 +52,8 @@ typedef struct {
   bool slice;            /* 3-D: cut across `view` through `through` */
   bool middle;           /* ... or through the middle of the grains */
   double through[3];
-  cdem_region window; /* only grains with centres in it are drawn */
+  cdem_region window;      /* only grains with centres in it are drawn */
+  const uint8_t *left_out; /* [grains] 1: not drawn; NULL: none */
   bool no_walls;
 } cdem_picture;
 

@@ -20,6 +20,7 @@ typedef struct {
   double mean_radius;
   double most; /* upper end of the range that is given; 0: none */
   cdem_region window;
+  const uint8_t *left_out;
 } cdem_picture_eye;
 
 /* Is a place in the window? */

@@ -49,6 +49,7 @@ typedef struct {
   cdem_partition partition;
   int64_t fine;
   int32_t *fine_grain; /* [fine] ids */
+  uint8_t *not_fine;   /* [grains] 1: an interface grain, which is part of the coarse medium */
   int32_t *spare;      /* nodes inside the fine region, of the form virtual-work */
   int64_t guides, guide_room;
   cdem_run_guided *guide;

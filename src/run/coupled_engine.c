@@ -80,6 +80,7 @@ static void release(cdem_run_setup *run) {
   cdem_run_engine_grains.release(&c->grains_run);
   free(c->fine_cell);
   free(c->fine_grain);
+  free(c->not_fine);
   free(c->spare);
   free(c->u);
   free(c->d);

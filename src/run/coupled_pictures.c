@@ -137,7 +137,7 @@ static cdem_status make_map(const cdem_run_coupled *c, const cdem_picture *pictu
   cdem_map body = {0};
   bool flat = cdem_run_values(c->run)->grains.dimension == 2;
   cdem_status status = CDEM_OK;
-  if (c->has_grains) /* interface grains too: they show where the coarse medium takes them */
+  if (c->has_grains)
     status = cdem_dem_picture(&c->grains->dem, picture, map, fault);
   if (status == CDEM_OK && c->has_body && flat)
     status = draw_body(c, picture, choice, c->has_grains ? &body : map, fault);
@@ -171,6 +171,8 @@ static cdem_status draw(const cdem_run_coupled *c, int choice, const char *title
   cdem_map map = {0};
   if (choice == CDEM_GRAIN_PRESSURE || choice == CDEM_GRAIN_EFFECTIVE_STRESS)
     picture.kind = CDEM_PICTURE_BAND; /* a field beside that of the elements: no gaps */
+  if (choice < CDEM_GRAIN_FIELDS)     /* interface grains carry what the elements there carry */
+    picture.left_out = c->not_fine;
   if (!c->has_grains && (choice >= CDEM_GRAIN_FIELDS || c->body->model.dimension == 3))
     return CDEM_OK; /* nothing to be seen */
   cdem_status status = make_map(c, &picture, choice, &map, fault);
