@@ -72,28 +72,36 @@ size_of() { # PNG: its width and height, of its header
   od -An -tu1 -j16 -N8 "$1" | awk '{ print (($1 * 256 + $2) * 256 + $3) * 256 + $4, (($5 * 256 + $6) * 256 + $7) * 256 + $8 }'
 }
 
-# Pictures of runs as panels of one figure, row by row, each with a line above it.
+# Pictures of runs as panels of one figure, row by row, as wide as the widest, a line above each.
 panels() { # FILE COLUMNS PICTURE LABEL [PICTURE LABEL ...]
-  file=$1 columns=$2
+  file=$1 columns=$2 wide=0 high=0 head=44 i=0 labels= plot=
   shift 2
-  count=$(($# / 2)) wide=0 high=0 i=0 script=
+  count=$(($# / 2)) rows=$(($# / 2 / columns))
   for picture; do
-    case $picture in *.png)
-      set -- "$@" # the sizes do not change the list
-      sizes=$(size_of "$out/$picture")
-      [ "${sizes% *}" -le $wide ] || wide=${sizes% *}
-      [ "${sizes#* }" -le $high ] || high=${sizes#* }
+    case $picture in
+      *.png) set -- "$@" "$picture" "$(size_of "$out/$picture")" ;; # the list grows behind its end
+      *) set -- "$@" "$picture" '' ;;
     esac
   done
-  rows=$(((count + columns - 1) / columns)) head=44
+  shift $((2 * count))
+  for value; do # sizes: the widest, then the highest of all made as wide
+    case $value in [0-9]*' '[0-9]*) [ "${value% *}" -le $wide ] || wide=${value% *} ;; esac
+  done
+  for value; do
+    case $value in [0-9]*' '[0-9]*)
+      scaled=$((${value#* } * wide / ${value% *}))
+      [ $scaled -le $high ] || high=$scaled ;;
+    esac
+  done
   cell=$((high + head))
-  while [ $i -lt $count ]; do
-    sizes=$(size_of "$out/$1")
-    x=$((i % columns * wide)) y=$(((rows - 1 - i / columns) * cell + high - ${sizes#* }))
-    script="$script
-set label $((i + 1)) '$2' at $((x + 16)),$((y + ${sizes#* } + head / 2)) left front"
-    plot="${plot:-}${plot:+, }'$out/$1' binary filetype=png origin=($x,$y) with rgbimage notitle"
-    shift 2
+  while [ $i -lt $count ]; do # PICTURE SIZE LABEL ''
+    across=${2% *} up=${2#* }
+    scaled=$((up * wide / across))
+    x=$((i % columns * wide)) y=$(((rows - 1 - i / columns) * cell + high - scaled))
+    labels="$labels
+set label $((i + 1)) '$3' at $((x + 16)),$((y + scaled + head / 2)) left front"
+    plot="$plot${plot:+, }'$out/$1' binary filetype=png origin=($x,$y) dx=$wide./$across dy=$wide./$across with rgbimage notitle"
+    shift 4
     i=$((i + 1))
   done
   gnuplot <<END
@@ -106,13 +114,12 @@ unset tics
 unset key
 set xrange [0:$((columns * wide))]
 set yrange [0:$((rows * cell))]
-$script
+$labels
 plot $plot
 END
-  plot=
 }
 
-curves fig03 a 'A, r = 50 mm' b 'B, r = 30 mm' c 'C, r = 20 to 50 mm, random'
+curves fig03 a 'assembly A' b 'assembly B' c 'assembly C'
 n=4
 for field in pressure effective_stress volumetric_strain effective_strain; do
   panels fig0$n 1 a/figures/$field.png '(a) assembly A' b/figures/$field.png '(b) assembly B' \
@@ -127,13 +134,11 @@ for field in chains velocities; do
 done
 panels fig10 1 a-continuum/figures/pressure.png '(a) pressure' \
   a-continuum/figures/effective_stress.png '(b) effective stress'
-curves fig11 a-grains 'grains everywhere' a 'coupled' a-frozen 'inside frozen grains (null)'
+curves fig11 a-grains 'all grains' a 'coupled' a-frozen 'null test'
 panels fig12 2 a/figures/volumetric_strain.png '(a) coupled' \
   a-grains/figures/volumetric_strain.png '(b) grains everywhere' \
   a/figures/effective_strain.png '(c) coupled' a-grains/figures/effective_strain.png '(d) grains everywhere'
-curves damping a-100-grains 'grains everywhere, 100 1/s' a-100 'coupled, 100 1/s' \
-  a-grains 'grains everywhere, 500 1/s' a 'coupled, 500 1/s' \
-  a-900-grains 'grains everywhere, 900 1/s' a-900 'coupled, 900 1/s'
+curves damping a-100-grains 'all, 100 1/s' a-100 'coupled' a-900-grains 'all, 900 1/s' a-900 'coupled'
 
 # ---- tables ----
 

@@ -441,12 +441,20 @@ static cdem_status put_field(const cdem_snapshot *s, const cdem_picture_eye *eye
   return put_discs(s, eye, value, FILLED, map, fault);
 }
 
+/* Of many grains larger, so that single ones show. */
+static double page_of(const cdem_snapshot *s, const cdem_picture_eye *eye) {
+  int64_t seen = 0;
+  for (int64_t i = 0; i < s->grains; i++)
+    seen += cdem_picture_shows(eye, s->xyz + 3 * i);
+  return fmax(1.0, fmin(1.6, 0.7 * pow((double)seen, 0.09)));
+}
+
 static cdem_status draw(const cdem_snapshot *s, const cdem_wall_surface *walls, const double *value,
                         const cdem_picture *p, cdem_map *map, cdem_fault *fault) {
   cdem_picture_eye eye;
   CDEM_TRY(eye_init(s, p, &eye, fault));
   map->title = p->title;
-  map->page = fmax(1.0, fmin(1.6, 0.7 * pow((double)s->grains, 0.09)));
+  map->page = page_of(s, &eye);
   label_axes(&eye, map);
   if (p->kind == CDEM_PICTURE_GRAINS || p->kind == CDEM_PICTURE_BAND)
     CDEM_TRY(put_field(s, &eye, value, p, map, fault));
