@@ -41,6 +41,7 @@ run b foundation-b
 run c foundation-c
 run a-frozen foundation-a --set coupling.version=frozen
 run a-continuum foundation-a --set coupling.version=continuum --set 'mesh.count=[84, 42]' \
+  --set plates.plate.stiffness_factor=20 \
   --set 'grains.picture_ranges.pressure=[0, 10 MPa]' --set 'grains.picture_ranges.effective_stress=[0, 10 MPa]'
 run a-grains foundation-a --set coupling.version=grains
 for cm in 100 300 700 900; do

@@ -106,10 +106,20 @@ const cdem_case_section cdem_section_initial =
 
 /* ---- probes ---- */
 
-static const char *const quantities[] = {
-    "displacement", "velocity",     "force",         "stress", "count",        "mass",
-    "solid",        "coordination", "surface_angle", "center", "stress_ratio", "band_angle",
-    "band_slenderness", NULL};
+static const char *const quantities[] = {"displacement",
+                                         "velocity",
+                                         "force",
+                                         "stress",
+                                         "count",
+                                         "mass",
+                                         "solid",
+                                         "coordination",
+                                         "surface_angle",
+                                         "center",
+                                         "stress_ratio",
+                                         "band_angle",
+                                         "band_slenderness",
+                                         NULL};
 static const char *const surfaces[] = {"heap", "cone", "slope", NULL};
 static const char *const components[] = {"x",  "y",  "z",  "rotation", "xx",        "yy",
                                          "zz", "yz", "xz", "xy",       "magnitude", NULL};

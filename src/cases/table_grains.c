@@ -159,22 +159,22 @@ static const cdem_case_section section_window =
 
 #define ENDS(member, what, sample)                                                                 \
   AT(cdem_case_picture_ranges, member), .kind = CDEM_KEY_VECTOR, .length = 2, .fewest = 2,         \
-      .otherwise = "automatic", .help = what, .example = sample
+                                        .otherwise = "automatic", .help = what, .example = sample
 static const cdem_case_key ranges[] = {
-    {ENDS(radius, "Ends of the colour bar.", "[0, 50 mm]"), .dimension = LENGTH},
-    {ENDS(speed, "Ends of the colour bar.", "[0, 1 m/s]"), .dimension = VELOCITY},
-    {ENDS(displacement, "Ends of the colour bar.", "[0, 60 mm]"), .dimension = LENGTH},
+    {ENDS(radius, "Ends of the colour bar.", "[0, 50 mm]"), .dimension = LENGTH, GRAIN},
+    {ENDS(speed, "Ends of the colour bar.", "[0, 1 m/s]"), .dimension = VELOCITY, DOMAIN},
+    {ENDS(displacement, "Ends of the colour bar.", "[0, 60 mm]"), .dimension = LENGTH, DOMAIN},
     {ENDS(rotation, "Ends of the colour bar.", "[-0.1, 0.1]")},
-    {ENDS(pressure, "Ends of the colour bar.", "[0, 4 MPa]"), .dimension = PRESSURE},
-    {ENDS(effective_stress, "Ends of the colour bar.", "[0, 6 MPa]"), .dimension = PRESSURE},
+    {ENDS(pressure, "Ends of the colour bar.", "[0, 4 MPa]"), .dimension = PRESSURE, DOMAIN},
+    {ENDS(effective_stress, "Ends of the colour bar.", "[0, 6 MPa]"), .dimension = PRESSURE,
+     DOMAIN},
     {ENDS(volumetric_strain, "Ends of the colour bar.", "[-0.05, 0.05]")},
     {ENDS(effective_strain, "Ends of the colour bar.", "[0, 0.25]")},
     {ENDS(contacts, "Ends of the colour bar.", "[0, 6]")},
-    {ENDS(chains, "Ends of the colour bar: pushes themselves, not over their mean.",
-          "[0, 100 kN]"),
-     .dimension = FORCE},
+    {ENDS(chains, "Ends of the colour bar: pushes themselves, not over their mean.", "[0, 100 kN]"),
+     .dimension = FORCE, DOMAIN},
     {ENDS(velocities, "Ends of the colour bar; arrows are as long as it says.", "[0, 1 m/s]"),
-     .dimension = VELOCITY},
+     .dimension = VELOCITY, DOMAIN},
 };
 #undef ENDS
 static const cdem_case_section section_ranges = SECTION(
