@@ -6,8 +6,8 @@
 #
 # CDEM names the program (cdem in the PATH). A run whose folder has a summary.json is not run again
 # and a broken one is continued, so the command may be stopped and given again; figures are drawn
-# anew each time. On two quiet cores all of it takes about six minutes, a minute without grains
-# everywhere (the five runs *-grains).
+# anew each time. It takes about four minutes, most of them in the five runs with grains everywhere;
+# on a machine that has other things to do, OMP_NUM_THREADS=1 is faster.
 #
 #     OUTDIR/a b c              coupled, the three assemblies
 #     OUTDIR/a-grains           grains everywhere (the source's "DEM")
