@@ -178,9 +178,14 @@ static cdem_status step_grains(const cdem_coupling_options *o, cdem_fault *fault
   return CDEM_OK;
 }
 
-cdem_status cdem_coupling_step(cdem_coupling *c, cdem_fault *fault) {
+static double now(const cdem_coupling *c) {
+  return c->options.clock != NULL ? c->options.clock() : 0.0;
+}
+
+static cdem_status step_coarse(cdem_coupling *c, cdem_fault *fault) {
   const cdem_coupling_options *o = &c->options;
   char limiter[64];
+  double begun = now(c);
   cdem_solver_velocity(o->coarse, c->before);
   CDEM_TRY(cdem_solver_step(o->coarse, fault));
   if (!(o->coarse->step >= (1.0 - 1e-9) * c->step)) {
@@ -193,14 +198,26 @@ cdem_status cdem_coupling_step(cdem_coupling *c, cdem_fault *fault) {
   CDEM_REQUIRE(o->coarse->step <= (1.0 + 1e-9) * c->step, fault, CDEM_USAGE,
                "the step of the body has changed to %.17g s; a coupled body has a fixed step",
                o->coarse->step);
+  c->cost.coarse += now(c) - begun;
+  return CDEM_OK;
+}
+
+cdem_status cdem_coupling_step(cdem_coupling *c, cdem_fault *fault) {
+  const cdem_coupling_options *o = &c->options;
+  CDEM_TRY(step_coarse(c, fault));
+  double begun = now(c);
   book(c);
   drive(c);
+  double driven = now(c);
   CDEM_TRY(step_grains(o, fault));
   CDEM_REQUIRE(fabs(o->cycles * o->fine->step - c->step) <= 1e-9 * c->step, fault, CDEM_USAGE,
                "the step of the grains has changed to %.17g s; coupled grains have a fixed step",
                o->fine->step);
+  double moved = now(c);
   take_reactions(c);
   book(c);
+  c->cost.fine += moved - driven;
+  c->cost.transfer += driven - begun + now(c) - moved;
   return CDEM_OK;
 }
 

@@ -55,12 +55,20 @@ typedef struct {
   const cdem_tie *fine_tie; /* virtual work: fine grains to the body's nodes; else NULL */
   cdem_absorb *absorb;      /* a layer that takes away short waves; NULL: none */
   double most_step;         /* s, as cdem_coupling_limit says; checked against the body's step */
+  double (*clock)(void);    /* s, says what the parts of a step cost; NULL: nobody asks */
 } cdem_coupling_options;
+
+/* What the parts of all steps so far have taken, s; 0 without a clock. Transfer: motion to
+ * interface grains and forces to the body. */
+typedef struct {
+  double fine, coarse, transfer;
+} cdem_coupling_cost;
 
 typedef struct {
   cdem_coupling_options options;
   double step; /* s, m dt */
   double work; /* J, of interface grains (virtual work: of all) on the body since the start */
+  cdem_coupling_cost cost;
   double *before, *after;     /* [nodes][dofs] velocities of the body */
   double *reaction;           /* [nodes][dofs] forces of the grains at t_n */
   double *motion, *rate, *on; /* [largest tie][6] */

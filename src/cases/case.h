@@ -164,7 +164,21 @@ typedef struct {
   cdem_case_compact compact;
 } cdem_case_packing;
 
+/* grains: picture_ranges: ends of the colour bars, in the order of the names of pictures; equal:
+ * automatic */
+typedef struct {
+  double radius[2], speed[2], displacement[2], rotation[2], pressure[2], effective_stress[2],
+      volumetric_strain[2], effective_strain[2], contacts[2], chains[2], velocities[2];
+} cdem_case_picture_ranges;
+
+/* grains: picture_window: low >= high in a direction: all of it */
+typedef struct {
+  double low[3], high[3];
+  cdem_case_texts of; /* pictures; none: all */
+} cdem_case_picture_window;
+
 /* grains: */
+enum { CDEM_CASE_PICTURE_TIMES = 8 };
 typedef struct {
   int64_t dimension;          /* 2 or 3 */
   int law, rolling, twisting; /* index into laws.def, resistances.def */
@@ -175,6 +189,9 @@ typedef struct {
   double most_overlap;      /* of grains at the start, in radii of the smaller one */
   double skin;              /* of the neighbour list, in mean radii; NaN: automatic */
   cdem_case_texts pictures; /* of the last state; none: the usual ones */
+  cdem_case_picture_window picture_window;
+  cdem_case_picture_ranges picture_ranges;
+  double picture_times[CDEM_CASE_PICTURE_TIMES]; /* s, earlier states; 0: none */
 } cdem_case_grains;
 
 /* contacts: - ; the first entry that fits a pair of materials is its law */
@@ -271,7 +288,9 @@ enum { /* the choices of `quantity` */
        CDEM_PROBE_COORDINATION,
        CDEM_PROBE_SURFACE_ANGLE,
        CDEM_PROBE_CENTER,
-       CDEM_PROBE_STRESS_RATIO
+       CDEM_PROBE_STRESS_RATIO,
+       CDEM_PROBE_BAND_ANGLE,
+       CDEM_PROBE_BAND_SLENDERNESS
 };
 
 /* curves: NAME: a figure drawn from history.csv */

@@ -195,7 +195,8 @@ static cdem_status check_probe_of_grains(const cdem_case *cases, const cdem_case
     return probe_fail(
         cases, probe, probe_gives(cases, probe, "quantity") ? "quantity" : "",
         "grains have the quantities velocity, center, stress, count, mass, solid, "
-        "coordination, surface_angle, center and stress_ratio; the force on a wall is a "
+        "coordination, surface_angle, center, stress_ratio, band_angle and band_slenderness; the "
+        "force on a wall is a "
         "column already, "
         "wall.NAME.fx",
         fault);
@@ -212,6 +213,10 @@ static cdem_status check_probe_of_grains(const cdem_case *cases, const cdem_case
                       flat ? "grains in 2-D have the components x, y, xx, yy, xy and magnitude"
                            : "grains have the components x, y, z, xx .. xy and magnitude",
                       fault);
+  if (!flat &&
+      (probe->quantity == CDEM_PROBE_BAND_ANGLE || probe->quantity == CDEM_PROBE_BAND_SLENDERNESS))
+    return probe_fail(cases, probe, "quantity",
+                      "bands are found in two dimensions; in three they are surfaces", fault);
   if (probe_gives(cases, probe, "surface") && probe->quantity != CDEM_PROBE_SURFACE_ANGLE)
     return probe_fail(cases, probe, "surface",
                       "'surface' has a meaning beside 'quantity: surface_angle' only", fault);

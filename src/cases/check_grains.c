@@ -201,6 +201,38 @@ static cdem_status check_bond(const cdem_case *cases, int64_t i, cdem_fault *fau
   return CDEM_OK;
 }
 
+/* ---- pictures ---- */
+
+static cdem_status check_pictures(const cdem_case *cases, cdem_fault *fault) {
+  static const char *const names[] = {"radius",
+                                      "speed",
+                                      "displacement",
+                                      "rotation",
+                                      "pressure",
+                                      "effective_stress",
+                                      "volumetric_strain",
+                                      "effective_strain",
+                                      "contacts",
+                                      "chains",
+                                      "velocities"};
+  const cdem_case_grains *g = &cases->values.grains;
+  const double(*ends)[2] = (const double(*)[2]) & g->picture_ranges;
+  char key[CDEM_CASE_PATH];
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    cdem_case_named_key(key, "grains.picture_ranges", names[i], "");
+    if (cdem_case_given(cases, key) && !(ends[i][0] < ends[i][1]))
+      return cdem_case_fail(cases, key, CDEM_INPUT, fault,
+                            "a colour bar from %g to %g: the second end must be above the first",
+                            ends[i][0], ends[i][1]);
+  }
+  for (int i = 0; i < CDEM_CASE_PICTURE_TIMES; i++)
+    if (g->picture_times[i] < 0.0)
+      return cdem_case_fail(cases, cdem_case_item_key(key, "grains.picture_times", i, ""),
+                            CDEM_INPUT, fault, "a picture at %g s, before the start of the run",
+                            g->picture_times[i]);
+  return CDEM_OK;
+}
+
 cdem_status cdem_case_check_grains(const cdem_case *cases, cdem_fault *fault) {
   const cdem_case_values *v = &cases->values;
   bool file = v->grains.file != NULL, packing = cdem_case_given(cases, "grains.packing");
@@ -232,5 +264,5 @@ cdem_status cdem_case_check_grains(const cdem_case *cases, cdem_fault *fault) {
     CDEM_TRY(check_between(cases, "contacts", i, &v->contacts.item[i].between, fault));
   for (int64_t i = 0; i < v->bonds.count; i++)
     CDEM_TRY(check_bond(cases, i, fault));
-  return CDEM_OK;
+  return check_pictures(cases, fault);
 }

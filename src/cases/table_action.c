@@ -106,9 +106,20 @@ const cdem_case_section cdem_section_initial =
 
 /* ---- probes ---- */
 
-static const char *const quantities[] = {
-    "displacement", "velocity",     "force",         "stress", "count",        "mass",
-    "solid",        "coordination", "surface_angle", "center", "stress_ratio", NULL};
+static const char *const quantities[] = {"displacement",
+                                         "velocity",
+                                         "force",
+                                         "stress",
+                                         "count",
+                                         "mass",
+                                         "solid",
+                                         "coordination",
+                                         "surface_angle",
+                                         "center",
+                                         "stress_ratio",
+                                         "band_angle",
+                                         "band_slenderness",
+                                         NULL};
 static const char *const surfaces[] = {"heap", "cone", "slope", NULL};
 static const char *const components[] = {"x",  "y",  "z",  "rotation", "xx",        "yy",
                                          "zz", "yz", "xz", "xy",       "magnitude", NULL};
@@ -126,7 +137,8 @@ static const cdem_case_key probes[] = {
          "forces that hold or push them, the mean stress of the elements. Grains: count, mass, "
          "mean velocity, center (of mass), solid fraction, stress, coordination number and stress "
          "ratio (2-D: (s1 - s3)/(s1 + s3), the sine of the mobilised friction angle; 3-D: q/p) in "
-         "the region, or the angle of the free surface.",
+         "the region, or the angle of the free surface; band_angle and band_slenderness (2-D): how "
+         "the grains whose effective strain is above half of the region's largest lie.",
      .example = "force"},
     {PROBE(component), .kind = CDEM_KEY_CHOICE, .choice = components,
      .otherwise = "required by what has components",

@@ -140,6 +140,47 @@ static const cdem_case_key packing[] = {
 static const cdem_case_section section_packing =
     SECTION("packing", cdem_case_packing, packing, .help = "Grains put in place by a rule.");
 
+/* ---- pictures ---- */
+
+#define WINDOW(member) AT(cdem_case_picture_window, member)
+static const cdem_case_key window[] = {
+    {WINDOW(low), .kind = CDEM_KEY_VECTOR, .dimension = LENGTH, .length = 3, .fewest = 2,
+     .required = true, DOMAIN, .help = "Corner of the box with the smallest coordinates.",
+     .example = "[-3.5 m, -3.5 m]"},
+    {WINDOW(high), .kind = CDEM_KEY_VECTOR, .dimension = LENGTH, .length = 3, .fewest = 2,
+     .required = true, DOMAIN, .help = "Corner of the box with the largest coordinates.",
+     .example = "[3.5 m, 0.1 m]"},
+    {WINDOW(of), .kind = CDEM_KEY_TEXTS, .otherwise = "all",
+     .help = "Pictures that show the box alone.", .example = "[effective_strain, chains]"},
+};
+static const cdem_case_section section_window =
+    SECTION("picture window", cdem_case_picture_window, window,
+            .help = "A box; what has its middle in it is drawn.");
+
+#define ENDS(member, what, sample)                                                                 \
+  AT(cdem_case_picture_ranges, member), .kind = CDEM_KEY_VECTOR, .length = 2, .fewest = 2,         \
+                                        .otherwise = "automatic", .help = what, .example = sample
+static const cdem_case_key ranges[] = {
+    {ENDS(radius, "Ends of the colour bar.", "[0, 50 mm]"), .dimension = LENGTH, GRAIN},
+    {ENDS(speed, "Ends of the colour bar.", "[0, 1 m/s]"), .dimension = VELOCITY, DOMAIN},
+    {ENDS(displacement, "Ends of the colour bar.", "[0, 60 mm]"), .dimension = LENGTH, DOMAIN},
+    {ENDS(rotation, "Ends of the colour bar.", "[-0.1, 0.1]")},
+    {ENDS(pressure, "Ends of the colour bar.", "[0, 4 MPa]"), .dimension = PRESSURE, DOMAIN},
+    {ENDS(effective_stress, "Ends of the colour bar.", "[0, 6 MPa]"), .dimension = PRESSURE,
+     DOMAIN},
+    {ENDS(volumetric_strain, "Ends of the colour bar.", "[-0.05, 0.05]")},
+    {ENDS(effective_strain, "Ends of the colour bar.", "[0, 0.25]")},
+    {ENDS(contacts, "Ends of the colour bar.", "[0, 6]")},
+    {ENDS(chains, "Ends of the colour bar: pushes themselves, not over their mean.", "[0, 100 kN]"),
+     .dimension = FORCE, DOMAIN},
+    {ENDS(velocities, "Ends of the colour bar; arrows are as long as it says.", "[0, 1 m/s]"),
+     .dimension = VELOCITY, DOMAIN},
+};
+#undef ENDS
+static const cdem_case_section section_ranges = SECTION(
+    "picture ranges", cdem_case_picture_ranges, ranges,
+    .help = "Ends of the colour bars of pictures, so that those of several runs can be compared.");
+
 /* ---- grains ---- */
 
 #define GRAINS(member) AT(cdem_case_grains, member)
@@ -176,6 +217,15 @@ static const cdem_case_key grains[] = {
          "contacts; force "
          "chains; velocities as arrows.",
      .example = "[effective_strain, chains]"},
+    {GRAINS(picture_window), .kind = CDEM_KEY_SECTION, .section = &section_window,
+     .otherwise = "everything", .help = "Pictures that show a part.",
+     .example = "{low: [-3.5 m, -3.5 m], high: [3.5 m, 0.1 m], of: [effective_strain]}"},
+    {GRAINS(picture_ranges), .kind = CDEM_KEY_SECTION, .section = &section_ranges,
+     .otherwise = "automatic", .help = "Ends of the colour bars.",
+     .example = "{effective_strain: [0, 0.25]}"},
+    {GRAINS(picture_times), .kind = CDEM_KEY_VECTOR, .dimension = TIME,
+     .length = CDEM_CASE_PICTURE_TIMES, .fewest = 1, DOMAIN, .otherwise = "none",
+     .help = "Times whose states are drawn too, as NAME-15ms.png.", .example = "[15 ms, 33 ms]"},
 };
 const cdem_case_section cdem_section_grains =
     SECTION("grains", cdem_case_grains, grains, .shorthand = NULL,

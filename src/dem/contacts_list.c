@@ -23,13 +23,14 @@ static cdem_dem_contact *append(list *l) {
   return contact;
 }
 
-/* Seen from the grain with the lower id. */
-static void turn_around(cdem_dem_contact *c) {
+/* Seen from the grain with the lower id: b, at y; a is at x. In a cell the point goes with it to
+ * the other side: x + branch is the image of b that a touches. */
+static void turn_around(cdem_dem_contact *c, const double *x, const double *y) {
   int32_t a = c->a;
   c->a = c->b;
   c->b = a;
   for (int k = 0; k < 3; k++) {
-    c->point[k] -= c->branch[k];
+    c->point[k] = y[k] + (c->point[k] - x[k] - c->branch[k]);
     c->normal[k] = -c->normal[k];
     c->branch[k] = -c->branch[k];
     c->force[k] = -c->force[k];
@@ -91,7 +92,7 @@ static void see(void *context, const cdem_dem_visit *visit) {
       for (int d = 0; d < 3; d++)
         c->point[d] = x[d] + c->branch[d] * (x[3] / (x[3] + y[3]));
     if (c->a > c->b)
-      turn_around(c);
+      turn_around(c, x, y);
   }
 }
 
@@ -118,7 +119,7 @@ static void add_bonds(const cdem_dem *dem, list *l) {
       c->point[d] = x[d] + f.arm[0] * f.n[d];
     }
     if (c->a > c->b)
-      turn_around(c);
+      turn_around(c, x, y);
   }
 }
 

@@ -82,6 +82,23 @@ cdem_status cdem_grain_strain(const cdem_dem *dem, const cdem_strain_reference *
 void cdem_strain_measure(int dim, cdem_strain_kind kind, const double gradient[9],
                          double *volumetric, double *effective, double rotation[3]);
 
+/* Where strain has gathered (2-D): grains of the region whose effective strain is above half of the
+ * largest in it, as one body. Its longer principal axis is the direction of a band, the ratio of
+ * the two radii of gyration says whether there is one: L/w of an even strip of length L and width
+ * w, 1 of a disc, sqrt 2 to 2 of a wedge. Two bands that cross are one body: choose the region so
+ * that it holds one, without the corners of what pushes. */
+typedef struct {
+  int64_t grains;     /* above half of the largest */
+  double largest;     /* effective strain; NaN: no grain in the region has one */
+  double center[2];   /* m */
+  double angle;       /* rad, -pi/2 .. pi/2, of the longer axis against x; NaN: no direction */
+  double slenderness; /* at least 1; NaN: fewer than three grains; infinity: all on a line */
+} cdem_band;
+/* Of places [grains][3], m, and strains [grains] in 2-D, of which NaN does not count; region NULL:
+ * everything. */
+void cdem_band_find(int64_t grains, const double *xyz, const double *effective,
+                    const cdem_region *region, cdem_band *band);
+
 /* Distribution of the push of contacts between grains: rows of a table (push over its mean, from 0
  * to the largest; count; probability density). */
 cdem_status cdem_force_distribution(const cdem_dem *dem, int bins, cdem_table *table,

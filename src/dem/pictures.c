@@ -11,7 +11,8 @@
 #define WALL      "#3c3c3c"
 #define BEYOND    0.01 /* part of the grains whose values are beyond the end of the bar */
 #define STRONGEST 5.0  /* chains: times the mean push, where width stops growing */
-#define FILLED    1.16 /* bands: grains so large that no gaps show in dense packings */
+#define FILLED    1.16 /* bands: grains so large that few gaps show in dense packings ... */
+#define GROUND    1.45 /* ... and, below, so large that the gaps of a square lattice are covered */
 #define CHAIN     0.28 /* width at the mean push, mean radii */
 #define CUT_CHAIN 0.14 /* ... where chains at several depths cross */
 enum { ARROWS = 1500 };
@@ -52,8 +53,8 @@ static cdem_status eye_init(const cdem_snapshot *s, const cdem_picture *p, cdem_
   *eye = (cdem_picture_eye){.right = {1, 0, 0}, .up = {0, 1, 0}, .into = {0, 0, -1}};
   eye->flat = s->dim == 2;
   eye->window = p->window;
-  eye->hidden = p->hidden;
-  eye->swell = p->swell > 0.0 ? p->swell : FILLED;
+  eye->left_out = p->left_out;
+  eye->most = p->value_min < p->value_max ? p->value_max : 0.0;
   for (int64_t i = 0; i < s->grains; i++)
     eye->mean_radius += s->radius[i] / (double)s->grains;
   eye->reach = 2.0 * eye->mean_radius;
@@ -107,7 +108,7 @@ static bool is_near(const cdem_picture_eye *eye, const double xyz[3]) {
 /* Radius of the circle that is seen of a grain; 0: it is hidden, or not cut. */
 static double radius_seen(const cdem_picture_eye *eye, const cdem_snapshot *s, int64_t i) {
   double r = s->radius[i], d = depth_of(eye, s->xyz + 3 * i);
-  if (eye->hidden != NULL && eye->hidden[i])
+  if (eye->left_out != NULL && eye->left_out[i])
     return 0.0;
   return fabs(d) < r && cdem_picture_shows(eye, s->xyz + 3 * i) ? sqrt((r - d) * (r + d)) : 0.0;
 }
@@ -115,13 +116,13 @@ static double radius_seen(const cdem_picture_eye *eye, const cdem_snapshot *s, i
 /* ---- grains ---- */
 
 static cdem_status put_discs(const cdem_snapshot *s, const cdem_picture_eye *eye,
-                             const double *value, bool rims, cdem_map *map, cdem_fault *fault) {
+                             const double *value, double larger, cdem_map *map, cdem_fault *fault) {
   int64_t seen = 0;
   cdem_map_marks *discs;
   for (int64_t i = 0; i < s->grains; i++)
     seen += radius_seen(eye, s, i) > 0.0;
   CDEM_TRY(cdem_map_add_marks(map, CDEM_MAP_DISCS, seen, true, false, &discs, fault));
-  discs->rims = rims;
+  discs->rims = larger == 1.0;
   discs->colour = PALE;
   seen = 0;
   for (int64_t i = 0; i < s->grains; i++) {
@@ -129,7 +130,7 @@ static cdem_status put_discs(const cdem_snapshot *s, const cdem_picture_eye *eye
     if (!(radius > 0.0))
       continue;
     project(eye, s->xyz + 3 * i, discs->xy + 4 * seen);
-    discs->size[seen] = rims ? radius : eye->swell * radius;
+    discs->size[seen] = larger * radius;
     discs->value[seen++] = value[i];
   }
   return CDEM_OK;
@@ -247,6 +248,7 @@ static cdem_status sort_chains(const cdem_snapshot *s, const cdem_picture_eye *e
   return CDEM_OK;
 }
 
+/* With a range given, widths are against that, so that pictures can be compared. */
 static cdem_status put_chains(const cdem_snapshot *s, const cdem_picture_eye *eye, cdem_map *map,
                               cdem_fault *fault) {
   chain *list;
@@ -259,9 +261,12 @@ static cdem_status put_chains(const cdem_snapshot *s, const cdem_picture_eye *ey
       cdem_map_add_marks(map, CDEM_MAP_STROKES, strokes, true, false, &marks, fault);
   if (status == CDEM_OK) {
     marks->marks = 0;
+    bool ranged = eye->most > 0.0;
     for (int64_t k = 0; k < count; k++)
-      put_chain(s, eye, &list[k], mean, marks);
-    map->value_label = "push over its mean, F_n/⟨F_n⟩";
+      put_chain(s, eye, &list[k], ranged ? eye->most / STRONGEST : mean, marks);
+    for (int64_t k = 0; ranged && k < marks->marks; k++)
+      marks->value[k] *= eye->most / STRONGEST;
+    map->value_label = ranged ? "push F_n, N" : "push over its mean, F_n/⟨F_n⟩";
     map->value_max = STRONGEST;
     map->reversed = true;
   }
@@ -326,7 +331,8 @@ static cdem_status fill_arrows(const cdem_snapshot *s, const cdem_picture_eye *e
   for (int64_t k = 0; k < count; k++)
     arrows->value[k] = cdem_norm3(s->velocity + 3 * chosen[k]);
   CDEM_TRY(set_range(arrows->value, count, false, true, map, fault));
-  double longest = map->value_max > 0.0 ? 2.2 * size / map->value_max : 0.0;
+  double fastest = eye->most > 0.0 ? eye->most : map->value_max;
+  double longest = fastest > 0.0 ? 2.2 * size / fastest : 0.0;
   for (int64_t k = 0; k < count; k++) {
     double *xy = arrows->xy + 4 * k, way[2];
     project(eye, s->xyz + 3 * chosen[k], xy);
@@ -429,7 +435,18 @@ static cdem_status put_field(const cdem_snapshot *s, const cdem_picture_eye *eye
     map->value_label = NULL;
   if (!eye->flat && !eye->cut)
     return cdem_picture_spheres(s, eye, value, map, fault);
-  return put_discs(s, eye, value, p->kind == CDEM_PICTURE_GRAINS, map, fault);
+  if (p->kind == CDEM_PICTURE_GRAINS)
+    return put_discs(s, eye, value, 1.0, map, fault);
+  CDEM_TRY(put_discs(s, eye, value, GROUND, map, fault));
+  return put_discs(s, eye, value, FILLED, map, fault);
+}
+
+/* Of many grains larger, so that single ones show. */
+static double page_of(const cdem_snapshot *s, const cdem_picture_eye *eye) {
+  int64_t seen = 0;
+  for (int64_t i = 0; i < s->grains; i++)
+    seen += cdem_picture_shows(eye, s->xyz + 3 * i);
+  return fmax(1.0, fmin(1.6, 0.7 * pow((double)seen, 0.09)));
 }
 
 static cdem_status draw(const cdem_snapshot *s, const cdem_wall_surface *walls, const double *value,
@@ -437,7 +454,7 @@ static cdem_status draw(const cdem_snapshot *s, const cdem_wall_surface *walls, 
   cdem_picture_eye eye;
   CDEM_TRY(eye_init(s, p, &eye, fault));
   map->title = p->title;
-  map->page = fmax(1.0, fmin(1.6, 0.7 * pow((double)s->grains, 0.09)));
+  map->page = page_of(s, &eye);
   label_axes(&eye, map);
   if (p->kind == CDEM_PICTURE_GRAINS || p->kind == CDEM_PICTURE_BAND)
     CDEM_TRY(put_field(s, &eye, value, p, map, fault));

@@ -45,14 +45,15 @@ typedef struct {
   cdem_grain_field field;
   const cdem_strain_reference *strain; /* for fields of strain, else NULL */
   const char *title;                   /* NULL: none. Borrowed by the map */
-  double value_min, value_max;         /* equal: automatic */
+  double value_min, value_max;         /* equal: automatic. Chains: pushes in N in place of those
+                                          over their mean, a fifth of the larger as wide as the mean
+                                          else; arrows are as long as it says */
   double view[3], up[3]; /* 3-D, from the eye into the picture; 0 0 0: along y, z up */
   bool slice;            /* 3-D: cut across `view` through `through` */
   bool middle;           /* ... or through the middle of the grains */
   double through[3];
-  cdem_region window;    /* only grains with centres in it are drawn */
-  const uint8_t *hidden; /* [grains] by id: those set are not drawn as discs; NULL: none */
-  double swell;          /* bands: size of the discs in radii; 0: as dense packings want it */
+  cdem_region window;      /* only grains with centres in it are drawn */
+  const uint8_t *left_out; /* [grains] by id, 1: not drawn; NULL: none */
   bool no_walls;
 } cdem_picture;
 

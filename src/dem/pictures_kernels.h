@@ -18,9 +18,9 @@ typedef struct {
   double plane;   /* depth of the cut */
   double reach;   /* half the thickness of what chains and arrows are shown of */
   double mean_radius;
+  double most; /* upper end of the range that is given; 0: none */
   cdem_region window;
-  const uint8_t *hidden;
-  double swell;
+  const uint8_t *left_out;
 } cdem_picture_eye;
 
 /* Is a place in the window? */

@@ -105,7 +105,8 @@ cdem_status cdem_run_body_solver(cdem_run_body *setup, cdem_fault *fault);
 /* body_columns.c */
 void cdem_run_body_columns(cdem_run_setup *run, cdem_run_row *row);
 /* body_pictures.c */
-cdem_status cdem_run_body_pictures(cdem_run_setup *run, const char *folder, cdem_fault *fault);
+cdem_status cdem_run_body_pictures(cdem_run_setup *run, const char *folder, const char *tag,
+                                   cdem_fault *fault);
 /* body_probes.c */
 cdem_status cdem_run_probes_init(const cdem_run_body *setup, cdem_run_probes *probes,
                                  cdem_fault *fault);

@@ -87,13 +87,15 @@ static bool has_moved(const cdem_run_body *setup) {
   return largest > 0.01 * size;
 }
 
-cdem_status cdem_run_body_pictures(cdem_run_setup *run, const char *folder, cdem_fault *fault) {
+cdem_status cdem_run_body_pictures(cdem_run_setup *run, const char *folder, const char *tag,
+                                   cdem_fault *fault) {
   const cdem_run_body *setup = run->context;
   picture p = {.flat = setup->model.dimension == 2,
                .cracks = setup->has_interfaces,
                .far = has_moved(setup)};
   const cdem_frame_sink sink = {.context = &p, .frame = take_frame};
-  char title[80];
+  char title[80], name[96];
+  snprintf(name, sizeof name, "pattern%s", tag);
   cdem_status status = cdem_solver_frames(&setup->solver, 0, &sink, fault);
   if (status == CDEM_OK && p.drawn) {
     cdem_run_axis time = cdem_run_axis_for("s", setup->solver.time);
@@ -103,7 +105,7 @@ cdem_status cdem_run_body_pictures(cdem_run_setup *run, const char *folder, cdem
     p.map.x_label = p.flat ? "x [m]" : NULL;
     p.map.y_label = p.flat ? "y [m]" : NULL;
     p.map.outlines = setup->model.cells <= 20000;
-    status = cdem_write_map(folder, "pattern", &p.map, fault);
+    status = cdem_write_map(folder, name, &p.map, fault);
   }
   cdem_map_release(&p.map);
   return status;

@@ -50,6 +50,7 @@ typedef struct {
   cdem_partition partition;
   int64_t fine;
   int32_t *fine_grain; /* [fine] ids */
+  uint8_t *not_fine;   /* [grains] 1: an interface grain, which is part of the coarse medium */
   int32_t *spare;      /* nodes inside the fine region, of the form virtual-work */
   int64_t guides, guide_room;
   cdem_run_guided *guide;
@@ -100,6 +101,7 @@ cdem_status cdem_run_coupled_look(const cdem_run_coupled *c, cdem_run_fine *foun
                                   cdem_fault *fault);
 cdem_status cdem_run_coupled_frames(cdem_run_setup *run, int64_t index, const cdem_frame_sink *sink,
                                     cdem_fault *fault);
-cdem_status cdem_run_coupled_pictures(cdem_run_setup *run, const char *folder, cdem_fault *fault);
+cdem_status cdem_run_coupled_pictures(cdem_run_setup *run, const char *folder, const char *tag,
+                                      cdem_fault *fault);
 
 #endif

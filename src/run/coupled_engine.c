@@ -81,6 +81,7 @@ static void release(cdem_run_setup *run) {
   cdem_run_engine_grains.release(&c->grains_run);
   free(c->fine_cell);
   free(c->fine_grain);
+  free(c->not_fine);
   free(c->spare);
   free(c->u);
   free(c->d);
@@ -159,6 +160,9 @@ static void sizes(const cdem_run_setup *run, cdem_run_summary *summary) {
   summary->interface_grains = c->has_body && c->has_grains ? c->tie.grains : 0;
   summary->cycles = c->cycles;
   summary->coarse_limit = c->coarse_limit;
+  summary->wall_fine = c->coupling.cost.fine;
+  summary->wall_coarse = c->coupling.cost.coarse;
+  summary->wall_transfer = c->coupling.cost.transfer;
 }
 
 static void put_sizes(cdem_json *json, const cdem_run_summary *summary) {
@@ -168,6 +172,11 @@ static void put_sizes(cdem_json *json, const cdem_run_summary *summary) {
   cdem_json_integer(json, "interface_grains", summary->interface_grains);
   cdem_json_integer(json, "cycles", summary->cycles);
   cdem_json_real(json, "coarse_step_limit", summary->coarse_limit);
+  if (summary->interface_grains > 0) {
+    cdem_json_real(json, "wall_fine", summary->wall_fine);
+    cdem_json_real(json, "wall_coarse", summary->wall_coarse);
+    cdem_json_real(json, "wall_transfer", summary->wall_transfer);
+  }
 }
 
 const cdem_run_engine cdem_run_engine_coupled = {

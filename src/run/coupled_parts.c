@@ -65,11 +65,14 @@ cdem_status cdem_run_coupled_divide(cdem_run_coupled *c, cdem_fault *fault) {
     CDEM_TRY(partition(c, fault));
   }
   CDEM_NEW(c->fine_grain, c->partition.fine, fault);
+  CDEM_NEW(c->not_fine, c->partition.grains, fault);
   for (int64_t i = 0; i < c->partition.grains; i++) {
-    if (c->partition.part[i] == CDEM_PART_FINE)
+    if (c->partition.part[i] == CDEM_PART_FINE) {
       c->fine_grain[c->fine++] = (int32_t)i;
-    else if (!all)
+    } else if (!all) {
       c->grains->grains.motion[i] = CDEM_GRAIN_DRIVEN;
+      c->not_fine[i] = 1;
+    }
   }
   return CDEM_OK;
 }

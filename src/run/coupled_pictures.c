@@ -1,5 +1,4 @@
-/* The last state of a coupled case: grains and coarse medium in one picture, of one scale. */
-#include "dem/pictures.h"
+/* A state of a coupled case: grains and coarse medium in one picture, of one scale. */
 #include "io/run_files.h"
 #include "results/map.h"
 #include "run/axis.h"
@@ -73,28 +72,44 @@ static cdem_status colour_body(const cdem_run_body *body, int field, cdem_map *m
   return CDEM_OK;
 }
 
-static cdem_status draw_body(const cdem_run_coupled *c, int field, cdem_map *map,
-                             cdem_fault *fault) {
+/* Only what has its middle in the window is drawn of the body. */
+static void keep_window(const cdem_region *window, cdem_map *map) {
+  int64_t kept = 0, corner = 0;
+  for (int64_t p = 0; p < map->polygons; p++) {
+    int64_t from = map->start[p], corners = map->start[p + 1] - from;
+    bool in = true;
+    for (int c = 0; c < 2; c++) {
+      double middle = 0.0;
+      for (int64_t i = 0; i < corners; i++)
+        middle += map->xy[2 * (from + i) + c] / (double)corners;
+      in = in && (!(window->low[c] < window->high[c]) ||
+                  (middle >= window->low[c] && middle < window->high[c]));
+    }
+    if (!in)
+      continue;
+    memmove(map->xy + 2 * corner, map->xy + 2 * from, 2 * (size_t)corners * sizeof *map->xy);
+    map->value[kept] = map->value[p];
+    if (map->shade != NULL)
+      map->shade[kept] = map->shade[p];
+    map->start[kept++] = corner;
+    corner += corners;
+  }
+  if (map->polygons > 0)
+    map->start[kept] = corner;
+  map->polygons = kept;
+}
+
+static cdem_status draw_body(const cdem_run_coupled *c, const cdem_picture *picture, int choice,
+                             cdem_map *map, cdem_fault *fault) {
   const cdem_frame_sink sink = {.context = map, .frame = take_body};
   CDEM_TRY(cdem_solver_frames(&c->body->solver, 0, &sink, fault));
-  CDEM_TRY(colour_body(c->body, field, map, fault));
-  map->outlines = c->body->model.cells <= 20000;
+  CDEM_TRY(colour_body(c->body, choice, map, fault));
+  map->outlines = c->body->model.cells <= 1000; /* of finer meshes they would hide the colours */
+  keep_window(&picture->window, map);
   return CDEM_OK;
 }
 
 /* ---- both ---- */
-
-enum { CHAINS = CDEM_GRAIN_FIELDS, VELOCITIES };
-
-static int choice_of(const char *name) {
-  return strcmp(name, "chains") == 0       ? CHAINS
-         : strcmp(name, "velocities") == 0 ? VELOCITIES
-                                           : cdem_grain_field_find(name);
-}
-
-static bool is_strain(int choice) {
-  return choice == CDEM_GRAIN_VOLUMETRIC_STRAIN || choice == CDEM_GRAIN_EFFECTIVE_STRAIN;
-}
 
 /* Spheres are cut through the centres next to the middle: the plane of symmetry of a lattice may
  * run between its spheres. */
@@ -108,32 +123,6 @@ static void cut_through(const cdem_grains *grains, double through[3]) {
       memcpy(through, grains->xyz + 3 * i, 3 * sizeof *through);
     }
   }
-}
-
-/* Interface grains are part of the coarse medium, which is drawn as elements. Discs of strain reach
- * to the corners of the square around a grain, so that no lattice shows gaps. */
-static cdem_status draw_grains(const cdem_run_coupled *c, int choice, const char *title,
-                               cdem_map *map, cdem_fault *fault) {
-  bool field = choice < CDEM_GRAIN_FIELDS;
-  cdem_picture picture = {.kind = choice == CHAINS       ? CDEM_PICTURE_CHAINS
-                                  : choice == VELOCITIES ? CDEM_PICTURE_ARROWS
-                                  : is_strain(choice)    ? CDEM_PICTURE_BAND
-                                                         : CDEM_PICTURE_GRAINS,
-                          .field = field ? (cdem_grain_field)choice : CDEM_GRAIN_SPEED,
-                          .strain = c->strain,
-                          .title = title,
-                          .swell = sqrt(2.0),
-                          .slice = c->grains->dim == 3};
-  uint8_t *hidden;
-  CDEM_NEW(hidden, c->grains->grains.grains, fault);
-  for (int64_t i = 0; c->has_body && i < c->partition.grains; i++)
-    hidden[i] = c->partition.part[i] == CDEM_PART_INTERFACE;
-  picture.hidden = hidden;
-  if (picture.slice)
-    cut_through(&c->grains->grains, picture.through);
-  cdem_status status = cdem_dem_picture(&c->grains->dem, &picture, map, fault);
-  free(hidden);
-  return status;
 }
 
 /* Gives the polygons and lines of the body to the map of the grains. */
@@ -157,15 +146,15 @@ static cdem_status join(cdem_map *grains, cdem_map *body, cdem_fault *fault) {
   return CDEM_OK;
 }
 
-static cdem_status make_map(const cdem_run_coupled *c, int choice, const char *title, cdem_map *map,
-                            cdem_fault *fault) {
+static cdem_status make_map(const cdem_run_coupled *c, const cdem_picture *picture, int choice,
+                            cdem_map *map, cdem_fault *fault) {
   cdem_map body = {0};
   bool flat = cdem_run_values(c->run)->grains.dimension == 2;
   cdem_status status = CDEM_OK;
   if (c->has_grains)
-    status = draw_grains(c, choice, title, map, fault);
+    status = cdem_dem_picture(&c->grains->dem, picture, map, fault);
   if (status == CDEM_OK && c->has_body && flat)
-    status = draw_body(c, choice, c->has_grains ? &body : map, fault);
+    status = draw_body(c, picture, choice, c->has_grains ? &body : map, fault);
   if (status == CDEM_OK && c->has_grains && c->has_body && flat)
     status = join(map, &body, fault);
   cdem_map_release(&body);
@@ -173,21 +162,49 @@ static cdem_status make_map(const cdem_run_coupled *c, int choice, const char *t
 }
 
 /* What a picture of the body alone needs beside its polygons. */
-static void label_body(int choice, const char *title, cdem_map *map) {
+static void label_body(const cdem_picture *picture, int choice, cdem_map *map) {
   static const char *const label[CDEM_GRAIN_FIELDS] = {
       [CDEM_GRAIN_DISPLACEMENT] = "displacement |u|, m",
       [CDEM_GRAIN_PRESSURE] = "pressure p, Pa",
       [CDEM_GRAIN_EFFECTIVE_STRESS] = "effective stress σ_e, Pa",
       [CDEM_GRAIN_VOLUMETRIC_STRAIN] = "volumetric strain ε_v",
       [CDEM_GRAIN_EFFECTIVE_STRAIN] = "effective strain ε_e"};
-  map->title = title;
-  map->x_label = "x [m]";
-  map->y_label = "y [m]";
+  map->title = picture->title;
+  map->x_label = "x, m";
+  map->y_label = "y, m";
   map->value_label = choice < CDEM_GRAIN_FIELDS ? label[choice] : NULL;
   map->diverging = choice == CDEM_GRAIN_VOLUMETRIC_STRAIN;
+  map->value_min = picture->value_min;
+  map->value_max = picture->value_max;
 }
 
-cdem_status cdem_run_coupled_pictures(cdem_run_setup *run, const char *folder, cdem_fault *fault) {
+static cdem_status draw(const cdem_run_coupled *c, int choice, const char *title,
+                        const char *folder, const char *tag, cdem_fault *fault) {
+  cdem_picture picture = cdem_run_picture(c->run, choice, c->strain, title);
+  char name[96];
+  cdem_map map = {0};
+  if (choice == CDEM_GRAIN_PRESSURE || choice == CDEM_GRAIN_EFFECTIVE_STRESS)
+    picture.kind = CDEM_PICTURE_BAND; /* a field beside that of the elements: no gaps */
+  if (choice < CDEM_GRAIN_FIELDS)     /* interface grains carry what the elements there carry */
+    picture.left_out = c->not_fine;
+  if (c->has_grains && c->grains->dim == 3) {
+    picture.slice = true;
+    picture.middle = false;
+    cut_through(&c->grains->grains, picture.through);
+  }
+  if (!c->has_grains && (choice >= CDEM_GRAIN_FIELDS || c->body->model.dimension == 3))
+    return CDEM_OK; /* nothing to be seen */
+  cdem_status status = make_map(c, &picture, choice, &map, fault);
+  if (status == CDEM_OK && !c->has_grains)
+    label_body(&picture, choice, &map);
+  if (status == CDEM_OK)
+    status = cdem_write_map(folder, cdem_run_picture_file(name, choice, tag), &map, fault);
+  cdem_map_release(&map);
+  return status;
+}
+
+cdem_status cdem_run_coupled_pictures(cdem_run_setup *run, const char *folder, const char *tag,
+                                      cdem_fault *fault) {
   static const char *const usual[] = {"displacement", "effective_strain", "chains"};
   const cdem_run_coupled *c = cdem_run_coupled_of(run);
   const cdem_case_texts *wanted = &cdem_run_values(run)->grains.pictures;
@@ -197,20 +214,8 @@ cdem_status cdem_run_coupled_pictures(cdem_run_setup *run, const char *folder, c
   char title[80];
   snprintf(title, sizeof title, "t = %.4g %s", axis.factor * time, axis.unit);
   for (int64_t i = 0; i < count; i++) {
-    const char *name = wanted->count > 0 ? wanted->item[i] : usual[i];
-    int choice = choice_of(name);
-    bool empty = !c->has_grains && (choice >= CDEM_GRAIN_FIELDS || c->body->model.dimension == 3);
-    cdem_map map = {0};
-    if (empty)
-      continue;
-    cdem_status status = make_map(c, choice, title, &map, fault);
-    if (status == CDEM_OK && !c->has_grains)
-      label_body(choice, title, &map);
-    if (status == CDEM_OK)
-      status =
-          cdem_write_map(folder, choice == CDEM_GRAIN_DISPLACEMENT ? "pattern" : name, &map, fault);
-    cdem_map_release(&map);
-    CDEM_TRY(status);
+    int choice = cdem_run_picture_find(wanted->count > 0 ? wanted->item[i] : usual[i]);
+    CDEM_TRY(draw(c, choice, title, folder, tag, fault));
   }
   return CDEM_OK;
 }

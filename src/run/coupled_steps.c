@@ -4,6 +4,7 @@
  * number of the body's steps ends at `end`, and all versions of a case take the same steps, so that
  * their rows can be compared. */
 #include "run/coupled.h"
+#include "run/output.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -239,7 +240,8 @@ static cdem_status couple(cdem_run_coupled *c, double step, cdem_fault *fault) {
                                          .tie = &c->tie,
                                          .fine_tie = whole ? &c->fine_tie : NULL,
                                          .absorb = v->absorb > 0.0 ? &c->absorb : NULL,
-                                         .most_step = c->coarse_limit};
+                                         .most_step = c->coarse_limit,
+                                         .clock = cdem_run_clock};
   return cdem_coupling_init(&options, &c->coupling, fault);
 }
 

@@ -62,8 +62,9 @@ typedef struct {
   /* Sizes of the problem, into the summary and into summary.json. */
   void (*sizes)(const cdem_run_setup *setup, cdem_run_summary *summary);
   void (*put_sizes)(cdem_json *json, const cdem_run_summary *summary);
-  /* The last state as pictures in a folder. */
-  cdem_status (*pictures)(cdem_run_setup *setup, const char *folder, cdem_fault *fault);
+  /* The present state as pictures in a folder; tag: end of the names of their files ("": none). */
+  cdem_status (*pictures)(cdem_run_setup *setup, const char *folder, const char *tag,
+                          cdem_fault *fault);
 } cdem_run_engine;
 
 extern const cdem_run_engine cdem_run_engine_body, cdem_run_engine_grains, cdem_run_engine_coupled;

@@ -169,18 +169,33 @@ static cdem_status draw_all(cdem_run_output *output, const cdem_table *history, 
     CDEM_TRY(draw_curve(output, &values->curves.item[i], folder, history, fault));
   if (history->rows > 1)
     CDEM_TRY(draw_energies(output->setup->engine->energies, folder, history, fault));
-  return output->setup->engine->pictures(output->setup, folder, fault);
+  return output->setup->engine->pictures(output->setup, folder, "", fault);
+}
+
+/* Pictures that cannot be drawn are a warning: the run itself is whole. */
+static cdem_status forgive(const cdem_run_output *output, cdem_status status,
+                           const cdem_fault *found, cdem_fault *fault) {
+  const cdem_warnings *warnings = output->options->warnings;
+  if (status == CDEM_FILE || status == CDEM_INPUT) {
+    if (warnings != NULL && warnings->warn != NULL)
+      warnings->warn(warnings->context, found->message);
+    return CDEM_OK;
+  }
+  return status == CDEM_OK ? CDEM_OK : cdem_fail(fault, status, "%s", found->message);
 }
 
 cdem_status cdem_run_figures(cdem_run_output *output, const cdem_table *history,
                              cdem_fault *fault) {
   cdem_fault local = {0};
-  cdem_status status = draw_all(output, history, &local);
-  const cdem_warnings *warnings = output->options->warnings;
-  if (status == CDEM_FILE || status == CDEM_INPUT) { /* the run itself is whole */
-    if (warnings != NULL && warnings->warn != NULL)
-      warnings->warn(warnings->context, local.message);
-    return CDEM_OK;
-  }
-  return status == CDEM_OK ? CDEM_OK : cdem_fail(fault, status, "%s", local.message);
+  return forgive(output, draw_all(output, history, &local), &local, fault);
+}
+
+cdem_status cdem_run_figures_at(cdem_run_output *output, double time, cdem_fault *fault) {
+  cdem_fault local = {0};
+  char folder[4096], tag[64];
+  const cdem_run_axis axis = cdem_run_axis_for("s", time);
+  snprintf(tag, sizeof tag, "-%.4g%s", axis.factor * time, axis.unit);
+  cdem_run_path(folder, output->options->folder, "figures");
+  cdem_status status = output->setup->engine->pictures(output->setup, folder, tag, &local);
+  return forgive(output, status, &local, fault);
 }

@@ -4,7 +4,7 @@
 #define CDEM_RUN_GRAINS_H
 
 #include "dem/dem.h"
-#include "dem/measures.h"
+#include "dem/pictures.h"
 #include "run/setup.h"
 
 /* Triangles or segments of a wall, read from a file or a checkpoint. */
@@ -38,7 +38,9 @@ typedef struct {
   cdem_dem_options options;
   cdem_dem dem;
   double *velocity;              /* [grains][3] scratch of the columns */
-  cdem_strain_reference *strain; /* the start, where a picture of strain is wanted */
+  cdem_strain_reference *strain; /* the start, where a picture or a band is wanted */
+  double *bands;                 /* [grains][4] places and effective strains of ... */
+  int64_t bands_step;            /* ... this step; -1: none yet */
 } cdem_run_grains;
 
 /* Grains at their places; then everything up to the solver; then that. Where the first fails
@@ -75,11 +77,20 @@ cdem_status cdem_run_grains_look(cdem_run_setup *run, cdem_fault *fault);
 void cdem_run_grains_columns(cdem_run_setup *run, cdem_run_row *row);
 /* grains_probes.c */
 const char *cdem_run_grains_unit(const cdem_case_probe *probe);
-cdem_status cdem_run_grains_probe(const cdem_run_grains *g, const cdem_case_probe *probe,
-                                  double *value, cdem_fault *fault);
-/* grains_pictures.c: which are wanted, and what they need of the start */
+cdem_status cdem_run_grains_probe(cdem_run_grains *g, const cdem_case_probe *probe, double *value,
+                                  cdem_fault *fault);
+/* grains_pictures.c: which are wanted, and what pictures and probes need of the start */
 cdem_status cdem_run_grains_pictures_init(cdem_run_grains *g, cdem_fault *fault);
-cdem_status cdem_run_grains_pictures(cdem_run_setup *run, const char *folder, cdem_fault *fault);
+cdem_status cdem_run_grains_pictures(cdem_run_setup *run, const char *folder, const char *tag,
+                                     cdem_fault *fault);
+/* ... names in grains.pictures: fields of grains and two more; -1: no such */
+enum { CDEM_RUN_CHAINS = CDEM_GRAIN_FIELDS, CDEM_RUN_VELOCITIES, CDEM_RUN_CHOICES };
+int cdem_run_picture_find(const char *name);
+/* ... what the case says of a picture: kind, window, ends of the colour bar */
+cdem_picture cdem_run_picture(const cdem_run_setup *run, int choice,
+                              const cdem_strain_reference *strain, const char *title);
+/* ... name of its file; of displacement it is "pattern", as for bodies */
+const char *cdem_run_picture_file(char text[96], int choice, const char *tag);
 
 /* Index of a material of the case; NULL: the first. Names were checked with the case. */
 int cdem_run_grains_material(const cdem_run_grains *g, const char *name);

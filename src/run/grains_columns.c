@@ -136,7 +136,7 @@ static void put_cell(cdem_run_row *row, const cdem_run_grains *g) {
                      axis[c]);
 }
 
-static void put_probe(cdem_run_row *row, const cdem_run_grains *g, const cdem_case_probe *probe) {
+static void put_probe(cdem_run_row *row, cdem_run_grains *g, const cdem_case_probe *probe) {
   double value = 0.0;
   if (!row->declare && row->status == CDEM_OK)
     row->status = cdem_run_grains_probe(g, probe, &value, row->fault);

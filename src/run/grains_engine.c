@@ -66,6 +66,7 @@ static void release(cdem_run_setup *run) {
   free(g->bond_law);
   free(g->bond);
   free(g->velocity);
+  free(g->bands);
   cdem_strain_reference_destroy(&g->strain);
   free(g);
   run->context = NULL;

@@ -1,4 +1,4 @@
-/* Probes of grains: what is in a region, and the angle of the free surface. */
+/* Probes of grains: what is in a region, the angle of the free surface, bands of strain. */
 #include "dem/surface.h"
 #include "run/grains.h"
 
@@ -18,6 +18,7 @@ const char *cdem_run_grains_unit(const cdem_case_probe *probe) {
   case CDEM_PROBE_MASS:
     return "kg";
   case CDEM_PROBE_SURFACE_ANGLE:
+  case CDEM_PROBE_BAND_ANGLE:
     return "rad";
   default:
     return "";
@@ -84,14 +85,41 @@ static cdem_status surface_angle(const cdem_run_grains *g, const cdem_case_probe
   return CDEM_OK;
 }
 
-cdem_status cdem_run_grains_probe(const cdem_run_grains *g, const cdem_case_probe *probe,
-                                  double *value, cdem_fault *fault) {
+/* Strains of all grains, once a row for all probes. */
+static cdem_status look_bands(cdem_run_grains *g, cdem_fault *fault) {
+  if (g->bands == NULL) {
+    CDEM_NEW(g->bands, 4 * g->dem.grains, fault);
+    g->bands_step = -1;
+  }
+  if (g->bands_step == g->dem.steps)
+    return CDEM_OK;
+  cdem_dem_look(&g->dem, &(cdem_dem_view){.xyz = g->bands});
+  CDEM_TRY(cdem_grain_strain(&g->dem, g->strain, NULL, NULL, g->bands + 3 * g->dem.grains, fault));
+  g->bands_step = g->dem.steps;
+  return CDEM_OK;
+}
+
+static cdem_status band(cdem_run_grains *g, const cdem_case_probe *probe, double *value,
+                        cdem_fault *fault) {
+  const cdem_region region = region_of(probe);
+  cdem_band found;
+  CDEM_TRY(look_bands(g, fault));
+  cdem_band_find(g->dem.grains, g->bands, g->bands + 3 * g->dem.grains, &region, &found);
+  *value = probe->quantity == CDEM_PROBE_BAND_ANGLE ? found.angle : found.slenderness;
+  return CDEM_OK;
+}
+
+cdem_status cdem_run_grains_probe(cdem_run_grains *g, const cdem_case_probe *probe, double *value,
+                                  cdem_fault *fault) {
   const cdem_region region = region_of(probe);
   cdem_count count = {0};
   cdem_assembly assembly = {0};
   switch (probe->quantity) {
   case CDEM_PROBE_SURFACE_ANGLE:
     return surface_angle(g, probe, value, fault);
+  case CDEM_PROBE_BAND_ANGLE:
+  case CDEM_PROBE_BAND_SLENDERNESS:
+    return band(g, probe, value, fault);
   case CDEM_PROBE_COUNT:
   case CDEM_PROBE_MASS:
   case CDEM_PROBE_VELOCITY:

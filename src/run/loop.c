@@ -5,7 +5,7 @@
  * which many steps at once are faster get as many as there are to the next thing due, but no more
  * than a fraction of a second is worth, so that a wish to stop is heard.
  */
-#include "run/output.h"
+#include "run/summary.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -46,6 +46,15 @@ static int64_t until_multiple(int64_t steps, int64_t every) {
   return every - steps % every;
 }
 
+static int64_t until_picture(const cdem_run_output *output, const cdem_run_now *now,
+                             int64_t steps) {
+  const double *time = cdem_run_values(output->setup)->grains.picture_times;
+  for (int i = 0; i < CDEM_CASE_PICTURE_TIMES; i++)
+    if (time[i] > now->time)
+      steps = least_of(steps, steps_until(now, time[i]));
+  return steps;
+}
+
 static int64_t stride(const cdem_run_output *output) {
   const cdem_run_setup *setup = output->setup;
   const cdem_case_values *v = cdem_run_values(setup);
@@ -68,7 +77,7 @@ static int64_t stride(const cdem_run_output *output) {
     steps = least_of(steps, steps_until(&now, v->frame_every * (double)c->next_frame));
   if (!isnan(v->checkpoint_every))
     steps = least_of(steps, steps_until(&now, v->checkpoint_every * (double)c->next_checkpoint));
-  return steps;
+  return until_picture(output, &now, steps);
 }
 
 /* The next stride by the clock: it decides how often we look, not what we see. */
@@ -107,7 +116,19 @@ static bool checkpoint_is_due(cdem_run_output *output, const cdem_run_now *now) 
   return cdem_run_clock() - output->saved > wall_between_checkpoints;
 }
 
-/* Rows, frames and checkpoints of this step. */
+/* Those of the step nearest to their time; their drawing does not count as time of the run. */
+static cdem_status draw_due(cdem_run_output *output, const cdem_run_now *now, cdem_fault *fault) {
+  const double *time = cdem_run_values(output->setup)->grains.picture_times;
+  double begun = cdem_run_clock();
+  for (int i = 0; output->options->figures && i < CDEM_CASE_PICTURE_TIMES; i++)
+    if (time[i] > 0.0 && now->time + 0.5 * now->step >= time[i] &&
+        now->time - 0.5 * now->step < time[i])
+      CDEM_TRY(cdem_run_figures_at(output, time[i], fault));
+  output->started += cdem_run_clock() - begun;
+  return CDEM_OK;
+}
+
+/* Rows, frames, pictures and checkpoints of this step. */
 static cdem_status write_due(cdem_run_output *output, bool *stop, cdem_fault *fault) {
   const cdem_run_now now = cdem_run_where(output->setup);
   if (row_is_due(output, &now)) {
@@ -117,6 +138,7 @@ static cdem_status write_due(cdem_run_output *output, bool *stop, cdem_fault *fa
   }
   if (frame_is_due(output, &now))
     CDEM_TRY(cdem_run_output_frame(output, fault));
+  CDEM_TRY(draw_due(output, &now, fault));
   if (checkpoint_is_due(output, &now))
     CDEM_TRY(cdem_run_output_checkpoint(output, fault));
   return CDEM_OK;

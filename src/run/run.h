@@ -44,15 +44,16 @@ typedef struct {
   int64_t blocks, interfaces; /* interfaces: faces between blocks */
   int64_t grains, contacts;   /* of a run of grains, 0 in one of a body; contacts: now */
   int64_t walls, bonds;
-  int64_t fine, interface_grains; /* of a coupled run, else 0 */
-  int cycles;                     /* steps of the grains a step */
-  double coarse_limit;            /* s, longest stable step of the coarse medium */
-  double solid;                   /* volume (2-D: area) of the grains, m^3 (m^2) */
-  double step;                    /* s, the present one */
-  char limiter[64];               /* what limits it */
-  double energy_error;            /* |error| of the book by its scale */
-  int results;                    /* key results with a reference */
-  int failed;                     /* ... that are off by more than their tolerance */
+  int64_t fine, interface_grains;               /* of a coupled run, else 0 */
+  int cycles;                                   /* steps of the grains a step */
+  double coarse_limit;                          /* s, longest stable step of the coarse medium */
+  double wall_fine, wall_coarse, wall_transfer; /* s, parts of `wall` since the last start */
+  double solid;                                 /* volume (2-D: area) of the grains, m^3 (m^2) */
+  double step;                                  /* s, the present one */
+  char limiter[64];                             /* what limits it */
+  double energy_error;                          /* |error| of the book by its scale */
+  int results;                                  /* key results with a reference */
+  int failed;                                   /* ... that are off by more than their tolerance */
   cdem_table keys; /* name, value, unit, reference, difference (relative; absolute where the
                       reference is 0); no unit where a factor was applied */
 } cdem_run_summary;

@@ -19,5 +19,7 @@ cdem_status cdem_run_summary_write(const cdem_run_output *output, const cdem_tab
 
 /* figures.c: FOLDER/figures. */
 cdem_status cdem_run_figures(cdem_run_output *output, const cdem_table *history, cdem_fault *fault);
+/* ... pictures of the present state, named after `time`, s, a time of grains.picture_times. */
+cdem_status cdem_run_figures_at(cdem_run_output *output, double time, cdem_fault *fault);
 
 #endif

@@ -30,13 +30,15 @@ typedef struct {
 enum { ACROSS = 6, HIGH = 12, DISCS = ACROSS * HIGH };
 static const double radius = 0.05, width = 0.6;
 
-static void fill(box *b, int64_t steps) {
+/* jump 1: ids row by row; another: in no order of place, contacts are seen from either side. */
+static void fill(box *b, int64_t steps, int jump) {
   cdem_fault fault = {0};
   cdem_random random = {2};
   *b = (box){.grains = {.dim = 2}, .input = contact(0.3)};
   for (int k = 0; k < DISCS; k++) {
-    const double xyz[3] = {radius * (1 + 2 * (k % ACROSS)) * 0.999 + 3e-4,
-                           radius * (1 + 2.02 * (k / ACROSS)), 0};
+    int at = k * jump % DISCS;
+    const double xyz[3] = {radius * (1 + 2 * (at % ACROSS)) * 0.999 + 3e-4,
+                           radius * (1 + 2.02 * (at - at % ACROSS) / ACROSS), 0};
     double r = radius * cdem_random_uniform(&random, 0.9, 0.999);
     check_ok(cdem_grains_add(&b->grains, xyz, r, &fault));
   }
@@ -68,12 +70,36 @@ static void empty(box *b) {
   cdem_grains_release(&b->grains);
 }
 
+/* Whichever grain a contact is seen from, its point is in both. */
+static void points_of_contacts_are_in_both_grains(void **unused) {
+  (void)unused;
+  box b;
+  fill(&b, 6000, 35);
+  cdem_fault fault = {0};
+  cdem_snapshot s;
+  check_ok(cdem_snapshot_take(&b.dem, &s, &fault));
+  assert_true(s.contacts > DISCS / 2);
+  for (int64_t k = 0; k < s.contacts; k++) {
+    const cdem_dem_contact *c = &s.contact[k];
+    for (int side = 0; side < (c->b >= 0 ? 2 : 1); side++) {
+      int64_t i = side == 0 ? c->a : c->b;
+      double arm[3];
+      for (int d = 0; d < 3; d++)
+        arm[d] = c->point[d] - s.xyz[3 * i + d];
+      assert_true(cdem_norm3(arm) < s.radius[i]);
+      assert_true((side == 0 ? 1 : -1) * cdem_dot3(arm, c->normal) > 0.9 * s.radius[i]);
+    }
+  }
+  cdem_snapshot_release(&s);
+  empty(&b);
+}
+
 /* At rest: the stress of the whole box is what the walls push (Gauss: V s = sum over the boundary
  * and weights, each known), and the force through a level is the weight above it. */
 static void columns_at_rest_carry_their_weight(void **unused) {
   (void)unused;
   box b;
-  fill(&b, 12000);
+  fill(&b, 12000, 1);
   check_below(cdem_dem_unbalanced(&b.dem), 1e-3);
   cdem_fault fault = {0};
   cdem_snapshot s;
@@ -126,7 +152,7 @@ static void columns_at_rest_carry_their_weight(void **unused) {
 static void fields_of_a_run_are_balanced(void **unused) {
   (void)unused;
   box b;
-  fill(&b, 400);
+  fill(&b, 400, 1);
   cdem_fault fault = {0};
   const double at[3] = {0.31, 0.35, 0}, h = 2e-3;
   cdem_coarse_grid point = {{at[0], at[1], 0}, {at[0], at[1], 0}, {1, 1, 1}, 0.2};
@@ -167,7 +193,7 @@ static void fields_of_a_run_are_balanced(void **unused) {
 static void distributions_are_densities(void **unused) {
   (void)unused;
   box b;
-  fill(&b, 2000);
+  fill(&b, 2000, 1);
   cdem_fault fault = {0};
   cdem_table forces = {0}, normals = {0}, profile = {0};
   check_ok(cdem_force_distribution(&b.dem, 7, &forces, &fault));
@@ -211,6 +237,7 @@ static void distributions_are_densities(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(points_of_contacts_are_in_both_grains),
       cmocka_unit_test(columns_at_rest_carry_their_weight),
       cmocka_unit_test(fields_of_a_run_are_balanced),
       cmocka_unit_test(distributions_are_densities),

@@ -40,13 +40,14 @@ static void discs_are_drawn_as_they_are(void **unused) {
                            .value_max = 4};
   map = map_of(&m->s, value, &picture);
   assert_true(map.diverging && map.value_min == -3 && map.value_max == 4 && !map.marks[0].rims);
+  assert_int_equal(map.mark_sets, 2); /* larger ones below, so that no gaps show */
+  assert_true(map.marks[0].size[9] > map.marks[1].size[9] && map.marks[1].size[9] > m->radius[9]);
   cdem_map_release(&map);
   uint8_t hidden[300] = {1};
-  picture.hidden = hidden;
-  picture.swell = 1.5;
+  picture.left_out = hidden;
   map = map_of(&m->s, value, &picture);
   assert_int_equal(map.marks[0].marks, 299);
-  assert_true(map.marks[0].xy[0] == m->xyz[3] && map.marks[0].size[0] == 1.5 * m->radius[1]);
+  assert_true(map.marks[0].xy[0] == m->xyz[3]);
   cdem_map_release(&map);
   for (int i = 0; i < 300; i++)
     value[i] = 0;
@@ -85,6 +86,16 @@ static void chains_are_as_wide_as_their_push(void **unused) {
   check_near(strokes->xy[4 * last], a[0], 1e-15, 0);
   check_near(strokes->xy[4 * last + 3], b[1], 1e-12, 1e-14);
   assert_true(map.reversed);
+  cdem_map_release(&map);
+  /* With a range the pushes themselves, and widths that pictures of two states share. */
+  const cdem_picture ranged = {.kind = CDEM_PICTURE_CHAINS, .value_max = 5 * mean};
+  map = map_of(&m->s, NULL, &ranged);
+  check_near(map.marks[2].value[last], 1000, 1e-12, 0);
+  cdem_map twice =
+      map_of(&m->s, NULL, &(cdem_picture){.kind = CDEM_PICTURE_CHAINS, .value_max = 10 * mean});
+  check_near(twice.marks[2].size[last / 2], 0.5 * map.marks[2].size[last / 2], 1e-12, 0);
+  cdem_map_release(&twice);
+  assert_true(map.value_min == 0 && map.value_max == 5 * mean);
   cdem_map_release(&map);
   free(m);
 }
@@ -126,6 +137,12 @@ static void arrows_point_where_grains_go(void **unused) {
     check_near(hypot(x, y), scale * hypot(v[0], v[1]), 1e-12, 0);
     check_near(arrows->value[i], hypot(v[0], v[1]), 1e-15, 0);
   }
+  const double automatic = map.value_max;
+  cdem_map_release(&map);
+  const cdem_picture ranged = {.kind = CDEM_PICTURE_ARROWS, .value_max = 4 * automatic};
+  map = map_of(&m->s, NULL, &ranged); /* a quarter as long */
+  const double *xy = map.marks[2].xy, *v = m->velocity;
+  check_near(hypot(xy[2] - xy[0], xy[3] - xy[1]), 0.25 * scale * hypot(v[0], v[1]), 1e-12, 0);
   cdem_map_release(&map);
   free(m);
   m = assembly_new(2); /* of many, one in each square */

@@ -129,6 +129,39 @@ static void failures_name_their_place(void **state) {
   check_bad("box.yaml", "grains.twisting=spring", "discs do not twist");
   check_bad("box.yaml", "grains.pictures=[chains, chain]",
             "there is no picture 'chain'; did you mean 'chains'? choose from radius, speed");
+  check_bad("box.yaml", "grains.picture_window={low: [0, 0], high: [1, 1], of: [speeds]}",
+            "there is no picture 'speeds'; did you mean 'speed'?");
+  check_bad("box.yaml", "grains.picture_ranges={chains: [1 kN, 0]}",
+            "a colour bar from 1000 to 0: the second end must be above the first");
+  check_bad("box.yaml", "grains.picture_times=[1 ms, -2 ms]", "a picture at -0.002 s");
+}
+
+/* Pictures of states on the way have their time in their name, and change no bit of the run. */
+static void states_on_the_way_are_drawn(void **state) {
+  (void)state;
+  const char *const override[] = {"grains.picture_times=[2 ms, 10.1 ms]", "end=12 ms",
+                                  "grains.pictures=[effective_strain]",
+                                  "probes.band.quantity=band_slenderness"};
+  cdem_fault fault = {0};
+  cdem_run_summary summary;
+  write_case("box.yaml", BOX);
+  for (int figures = 0; figures < 2; figures++) {
+    const cdem_run_options options = {.path = in_scratch("box.yaml"),
+                                      .folder = in_scratch(figures ? "drawn" : "plain"),
+                                      .overrides = 4,
+                                      .override = override,
+                                      .figures = figures == 1,
+                                      .threads = 1,
+                                      .version = "test",
+                                      .commit = "test"};
+    check_ok(cdem_run(&options, &summary, &fault));
+    cdem_run_summary_release(&summary);
+  }
+  assert_true(is_there("drawn/figures/effective_strain.png"));
+  assert_true(is_there("drawn/figures/effective_strain-2ms.png"));
+  assert_true(is_there("drawn/figures/effective_strain-10.1ms.png"));
+  assert_true(holds("drawn/figures/effective_strain-2ms.gp", "'t = 2"));
+  assert_true(same_files("plain/history.csv", "drawn/history.csv"));
 }
 
 /* Grains that fall for ever are never balanced, and the run says so. */
@@ -154,6 +187,7 @@ int main(void) {
       cmocka_unit_test(a_cell_is_pressed),
       cmocka_unit_test(the_kept_case_runs_from_anywhere),
       cmocka_unit_test(failures_name_their_place),
+      cmocka_unit_test(states_on_the_way_are_drawn),
       cmocka_unit_test(nothing_to_balance),
   };
   return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
