@@ -18,8 +18,10 @@ static cdem_status law_of(const cdem_model *model, int m, cdem_tension_law *law,
   const cdem_material *material = &model->materials_of[m];
   double d[36];
   int rows;
-  bool isotropic = material->model == CDEM_ISOTROPIC || material->model == CDEM_COSSERAT;
-  CDEM_REQUIRE(isotropic || material->model == CDEM_COSSERAT_CUBIC, fault, CDEM_INPUT,
+  bool cubic = material->model == CDEM_COSSERAT_CUBIC || material->model == CDEM_COSSERAT_LATTICE;
+  bool isotropic =
+      material->model == CDEM_ISOTROPIC || (cdem_material_is_cosserat(material) && !cubic);
+  CDEM_REQUIRE(isotropic || cubic, fault, CDEM_INPUT,
                "material '%s' is %s and cannot be without tension: that law wants isotropic moduli",
                material->name, cdem_material_model_get(material->model)->name);
   if (model->formulation == CDEM_SOLID) {
