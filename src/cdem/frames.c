@@ -7,8 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* VTK's cell type of a first-order shape; 0: none. */
-static uint8_t vtk_type(cdem_shape shape) {
+uint8_t cdem_frame_cell_type(cdem_shape shape) {
   switch (shape) {
   case CDEM_SHAPE_TRI3:
     return 5;
@@ -89,7 +88,7 @@ static void body_cells(const cdem_solver *solver, cdem_frame_draft *r, cdem_fram
   for (int32_t c = 0; c < model->cells; c++) {
     cdem_shape shape = (cdem_shape)model->mesh->cell_shape[model->cell[c]];
     int nodes = cdem_shape_get(shape)->nodes;
-    type[c] = vtk_type(shape);
+    type[c] = cdem_frame_cell_type(shape);
     memcpy(node + offset[c], cdem_mesh_cell(model->mesh, model->cell[c]),
            (size_t)nodes * sizeof *node);
     offset[c + 1] = offset[c] + nodes;

@@ -95,6 +95,17 @@ void cdem_run_coupled_edge_release(cdem_run_coupled *c);
 /* coupled_steps.c: cycles, the two steps, the body's solver and the coupling */
 cdem_status cdem_run_coupled_start(cdem_run_coupled *c, cdem_fault *fault);
 
+/* coupled_fields.c: a field of all grains, [grains][3] twice, gathered for the projector into c->u;
+ * and of an element's stress and strain, in the order of cdem_body_fields, what grains have: small
+ * strains, stresses as cdem_effective_stress */
+typedef struct {
+  double volumetric_strain, effective_strain, volumetric_stress, effective_stress;
+} cdem_run_cell_numbers;
+void cdem_run_coupled_gather(const cdem_run_coupled *c, const double *linear,
+                             const double *angular);
+cdem_run_cell_numbers cdem_run_coupled_cell(int dim, const double stress[6],
+                                            const double strain[6]);
+
 /* coupled_columns.c, coupled_frames.c, coupled_pictures.c */
 void cdem_run_coupled_columns(cdem_run_setup *run, cdem_run_row *row);
 cdem_status cdem_run_coupled_look(const cdem_run_coupled *c, cdem_run_fine *found,

@@ -50,14 +50,9 @@ static cdem_status look_cells(const cdem_run_coupled *c, cdem_run_fine *found, c
   for (int32_t k = 0; k < c->fine_cells; k++) {
     /* the whole mesh is the body: its cells are in the order of the mesh */
     int32_t i = body->model_of[c->fine_cell[k]];
-    double *s = stress + 6 * (int64_t)i, *e = strain + 6 * (int64_t)i;
-    double trace = e[0] + e[1] + e[2], mean = 0.0, sum = 0.0;
-    for (int d = 0; d < 3; d++)
-      sum += (e[d] - trace / 3.0) * (e[d] - trace / 3.0) + 0.5 * e[3 + d] * e[3 + d];
-    for (int d = 0; d < dim; d++)
-      mean += s[d] / dim;
-    const double ordered[6] = {s[0], s[1], s[2], s[5], s[3], s[4]};
-    take(found, trace, sqrt(2.0 / 3.0 * sum), mean, cdem_effective_stress(dim, ordered));
+    cdem_run_cell_numbers n =
+        cdem_run_coupled_cell(dim, stress + 6 * (int64_t)i, strain + 6 * (int64_t)i);
+    take(found, n.volumetric_strain, n.effective_strain, n.volumetric_stress, n.effective_stress);
   }
   free(all);
   return CDEM_OK;
@@ -68,18 +63,10 @@ static cdem_status look_kinetic(const cdem_run_coupled *c, cdem_run_fine *found,
                                 cdem_fault *fault) {
   cdem_projector_shape shape = cdem_run_coupled_shape(c);
   const cdem_dem *dem = &c->grains->dem;
-  int width = shape.translations + shape.rotations;
   double *all;
   CDEM_NEW(all, 6 * dem->grains, fault);
   cdem_dem_look(dem, &(cdem_dem_view){.velocity = all, .spin = all + 3 * dem->grains});
-  for (int64_t a = 0; a < c->fine; a++) {
-    int64_t id = c->fine_grain[a];
-    for (int k = 0; k < shape.translations; k++)
-      c->u[a * width + k] = all[3 * id + k];
-    for (int k = 0; k < shape.rotations; k++)
-      c->u[a * width + shape.translations + k] =
-          all[3 * dem->grains + 3 * id + (dem->dim == 2 ? 2 : k)];
-  }
+  cdem_run_coupled_gather(c, all, all + 3 * dem->grains);
   free(all);
   CDEM_TRY(cdem_projector_split(&c->projector, shape, c->u, c->kept, NULL, fault));
   found->kinetic = cdem_projector_energy(&c->projector, shape, c->u);

@@ -24,15 +24,8 @@ typedef struct {
 } face_list;
 
 static bool is_fine(const cdem_run_coupled *c, int32_t cell) {
-  int32_t low = 0, high = c->fine_cells;
-  while (low < high) {
-    int32_t middle = low + (high - low) / 2;
-    if (c->fine_cell[middle] < cell)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low < c->fine_cells && c->fine_cell[low] == cell;
+  const cdem_group fine = {.cells = c->fine_cells, .cell = c->fine_cell};
+  return cdem_run_group_holds(&fine, cell);
 }
 
 static bool has_nodes(const cdem_mesh *mesh, int32_t cell, int nodes, const int32_t *node) {

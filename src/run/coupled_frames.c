@@ -7,38 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* VTK's cell type of a first-order shape. */
-static uint8_t vtk_type(cdem_shape shape) {
-  switch (shape) {
-  case CDEM_SHAPE_TRI3:
-    return 5;
-  case CDEM_SHAPE_QUAD4:
-    return 9;
-  case CDEM_SHAPE_TET4:
-    return 10;
-  case CDEM_SHAPE_HEX8:
-    return 12;
-  case CDEM_SHAPE_WEDGE6:
-    return 13;
-  default:
-    return 14;
-  }
-}
-
 /* Nodal displacements of the fine region, d = M^-1 N^T Mp q, into c->d. */
 static cdem_status project(const cdem_run_coupled *c, cdem_fault *fault) {
   cdem_projector_shape shape = cdem_run_coupled_shape(c);
   const cdem_dem *dem = &c->grains->dem;
-  int width = shape.translations + shape.rotations;
   double *all;
   CDEM_NEW(all, 6 * dem->grains, fault);
   cdem_dem_look(dem, &(cdem_dem_view){.displacement = all, .rotation = all + 3 * dem->grains});
-  for (int64_t a = 0; a < c->fine; a++)
-    for (int k = 0; k < width; k++) {
-      bool turns = k >= shape.translations;
-      int of = turns ? (dem->dim == 2 ? 2 : k - shape.translations) : k;
-      c->u[a * width + k] = all[(turns ? 3 * dem->grains : 0) + 3 * (int64_t)c->fine_grain[a] + of];
-    }
+  cdem_run_coupled_gather(c, all, all + 3 * dem->grains);
   free(all);
   return cdem_projector_project(&c->projector, shape, c->u, c->d, fault);
 }
@@ -84,7 +60,7 @@ static void fill_cells(const cdem_run_coupled *c, cdem_frame_draft *r, cdem_fram
   for (int32_t k = 0; k < c->fine_cells; k++) {
     int32_t cell = c->fine_cell[k];
     int64_t count = mesh->cell_start[cell + 1] - mesh->cell_start[cell];
-    type[k] = vtk_type((cdem_shape)mesh->cell_shape[cell]);
+    type[k] = cdem_frame_cell_type((cdem_shape)mesh->cell_shape[cell]);
     index[cell] = k;
     for (int64_t i = 0; i < count; i++)
       node[offset[k] + i] = place[cdem_mesh_cell(mesh, cell)[i]];

@@ -36,20 +36,16 @@ static cdem_status take_body(void *context, const cdem_frame *frame, cdem_fault 
 
 /* The grains' field in an element; NaN where the body has no such thing. */
 static double cell_value(const double stress[6], const double strain[6], cdem_grain_field field) {
-  double trace = strain[0] + strain[1] + strain[2], sum = 0.0;
-  const double ordered[6] = {stress[0], stress[1], stress[2], stress[5], stress[3], stress[4]};
-  for (int d = 0; d < 3; d++)
-    sum +=
-        (strain[d] - trace / 3.0) * (strain[d] - trace / 3.0) + 0.5 * strain[3 + d] * strain[3 + d];
+  cdem_run_cell_numbers n = cdem_run_coupled_cell(2, stress, strain);
   switch (field) {
   case CDEM_GRAIN_PRESSURE:
-    return -0.5 * (stress[0] + stress[1]);
+    return -n.volumetric_stress;
   case CDEM_GRAIN_EFFECTIVE_STRESS:
-    return cdem_effective_stress(2, ordered);
+    return n.effective_stress;
   case CDEM_GRAIN_VOLUMETRIC_STRAIN:
-    return trace;
+    return n.volumetric_strain;
   case CDEM_GRAIN_EFFECTIVE_STRAIN:
-    return sqrt(2.0 / 3.0 * sum);
+    return n.effective_strain;
   default:
     return NAN;
   }

@@ -1,7 +1,7 @@
 /* Coupled cases through the door of a run: bonded grains in their own medium answer like grains
  * everywhere, loads and supports reach grains, and neither threads nor interruptions change a bit.
  */
-#include "run/support.h"
+#include "run/resume.h"
 
 /* 4 m x 3 m of discs in elements of 1 m, exact moduli, everything linear; grains where `regions`
  * say. */
@@ -99,23 +99,6 @@ static void tractions_and_supports_reach_grains(void **state) {
 
 /* ---- same bits ---- */
 
-typedef struct {
-  int calls, stop_at;
-} stopper;
-
-static bool report(void *context, const char *what, int64_t done, int64_t total) {
-  stopper *s = context;
-  (void)total;
-  return s->stop_at < 0 || strncmp(what, "running", 7) != 0 || done < s->stop_at;
-}
-
-static cdem_status run_until(const char *folder, bool resume, int stop_at, int threads,
-                             cdem_fault *fault) {
-  stopper stop = {.stop_at = stop_at};
-  const cdem_progress progress = {.context = &stop, .report = report};
-  return run_box(folder, resume, threads, &progress, fault);
-}
-
 static void check_same(const char *a, const char *b) {
   static const char *const files[] = {"history.csv", "body/body-000002.vtu",
                                       "grains/grains-000003.vtu",
@@ -142,11 +125,11 @@ static void threads_and_breaks_change_no_bit(void **state) {
       snprintf(at, sizeof text - (size_t)(at - text), ", cycles: 5%s}\n", form[f]);
     }
     write_case("box.yaml", text);
-    check_ok(run_until("whole", false, -1, 1, &fault));
-    check_ok(run_until("team", false, -1, 2, &fault));
+    check_ok(run_until("whole", false, 1 << 30, 1, &fault));
+    check_ok(run_until("team", false, 1 << 30, 2, &fault));
     check_fails(run_until("broken", false, 7, 1, &fault), CDEM_INTERRUPTED, "--resume");
     check_fails(run_until("broken", true, 15, 2, &fault), CDEM_INTERRUPTED, "--resume");
-    check_ok(run_until("broken", true, -1, 1, &fault));
+    check_ok(run_until("broken", true, 1 << 30, 1, &fault));
     check_same("whole", "team");
     check_same("whole", "broken");
   }
