@@ -45,15 +45,15 @@ cdem_status cdem_bsm_measure_foundation(int parameter, double *value, cdem_fault
 
 /* ---- the three assemblies ---- */
 
+static const char inward[] =
+    "grains.packing={kind: inward, low: [-10.5, -10.5], high: [10.5, 0], sizes: power, least: 20 "
+    "mm, most: 50 mm, exponent: -2.5}";
+
 static cdem_status assembly(int which, const cdem_table **history, cdem_fault *fault) {
   static const char *const override[3][CDEM_BSM_OVERRIDES] = {
       {"coupling.version=coupled", NULL},
       {"coupling.version=coupled", "grains.packing.radius=30 mm", "step=12 us", NULL},
-      {"coupling.version=coupled",
-       "grains.packing={kind: inward, low: [-10.5, -10.5], high: [10.5, 0], sizes: power, least: "
-       "20 "
-       "mm, most: 50 mm, exponent: -2.5}",
-       "step=8 us", "grains.most_overlap=0.2", NULL}};
+      {"coupling.version=coupled", inward, "step=8 us", "grains.most_overlap=0.2", NULL}};
   return cdem_bsm_run(CDEM_BSM_FOUNDATION, override[which], history, fault);
 }
 

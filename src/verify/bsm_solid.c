@@ -401,7 +401,8 @@ cdem_status cdem_bsm_measure_solid_patch(int parameter, double *value, cdem_faul
   const double rate = 1e-2, strain = 1e-5; /* of one step: what is of second order is not seen */
   const int field = parameter % 10;
   double gradient[9] = {0}, modulus = field == 1 ? ks / (4.0 * radius) : kn / (2.0 * radius);
-  patch p = {.spheres = parameter / 10, .size = 2.0 * radius * (parameter / 10)};
+  const int spheres = parameter / 10;
+  patch p = {.spheres = spheres, .size = 2.0 * radius * spheres};
   gradient[field == 0 ? 8 : 2] = rate;
   gradient[6] = field == 2 ? -rate : 0.0;
   cdem_status status = measure_patch(&p, gradient, value, fault);
