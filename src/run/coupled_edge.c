@@ -119,8 +119,37 @@ static cdem_status add_faces(const cdem_run_coupled *c, const cdem_group *group,
   return CDEM_OK;
 }
 
-/* Faces of the group of the value at `key`. Groups of other kinds have none, which is an error
- * where everything is grains. */
+/* Nodes and cells that the body does not have: those of fine cells alone. */
+static cdem_status check_outside(const cdem_run_coupled *c, const char *key,
+                                 const cdem_group *group, cdem_fault *fault) {
+  const cdem_mesh *mesh = &c->body->mesh;
+  int dim = cdem_mesh_dimension(mesh);
+  bool fine = c->version == CDEM_VERSION_GRAINS, cells = group->dimension == dim;
+  uint8_t *outer = cdem_allocate(mesh->nodes, 1, fault);
+  if (outer == NULL)
+    return CDEM_MEMORY;
+  for (int32_t i = 0; i < c->partition.outer_cells; i++)
+    for (int64_t k = mesh->cell_start[c->partition.outer_cell[i]];
+         k < mesh->cell_start[c->partition.outer_cell[i] + 1]; k++)
+      outer[mesh->cell_node[k]] = 1;
+  for (int32_t i = 0; i < group->cells && !fine; i++) {
+    fine = cells && is_fine(c, group->cell[i]);
+    for (int64_t k = mesh->cell_start[group->cell[i]]; k < mesh->cell_start[group->cell[i] + 1];
+         k++)
+      fine = fine || !outer[mesh->cell_node[k]];
+  }
+  free(outer);
+  if (!fine)
+    return CDEM_OK;
+  return cdem_case_fail(&c->run->cases, key, CDEM_INPUT, fault,
+                        "grains are held and loaded through groups of %s; '%s' is none%s",
+                        dim == 2 ? "edges" : "faces", group->name,
+                        c->version == CDEM_VERSION_GRAINS ? ""
+                                                          : " and reaches into the fine region");
+}
+
+/* Faces with grains of the group of the value at `key`. Groups of other kinds have none, which is
+ * an error where grains are. */
 static cdem_status faces_of(const cdem_run_coupled *c, const char *key, const char *name,
                             face_list *list, cdem_fault *fault) {
   const cdem_mesh *mesh = &c->body->mesh;
@@ -130,11 +159,7 @@ static cdem_status faces_of(const cdem_run_coupled *c, const char *key, const ch
   *list = (face_list){0};
   CDEM_TRY(cdem_run_find_group(c->body, key, name, 0, 3, &group, fault));
   if (group->dimension != dim - 1)
-    return c->version != CDEM_VERSION_GRAINS
-               ? CDEM_OK
-               : cdem_case_fail(&c->run->cases, key, CDEM_INPUT, fault,
-                                "grains are held and loaded through groups of %s; '%s' is none",
-                                dim == 2 ? "edges" : "faces", name);
+    return check_outside(c, key, group, fault);
   cdem_status status = cells_by_node(mesh, &by, fault);
   if (status == CDEM_OK)
     status = add_faces(c, group, &by, list, fault);
@@ -243,8 +268,24 @@ static cdem_status edge_load(cdem_run_coupled *c, int64_t index, cdem_fault *fau
   return status;
 }
 
+/* A free edge in the place of a quiet one would throw all waves back. */
+static cdem_status check_quiet(const cdem_run_coupled *c, const char *name, cdem_fault *fault) {
+  face_list list;
+  cdem_status status = faces_of(c, "quiet", name, &list, fault);
+  free(list.face);
+  if (status == CDEM_OK && list.faces > 0)
+    status = cdem_case_fail(&c->run->cases, "quiet", CDEM_INPUT, fault,
+                            "'%s' has grains behind it, which have no quiet boundary; take a group "
+                            "of the coarse medium, or `mass_damping`",
+                            name);
+  return status;
+}
+
 cdem_status cdem_run_coupled_loads(cdem_run_coupled *c, cdem_fault *fault) {
-  for (int64_t i = 0; i < cdem_run_values(c->run)->loads.count; i++)
+  const cdem_case_values *v = cdem_run_values(c->run);
+  for (int64_t i = 0; i < v->quiet.count; i++)
+    CDEM_TRY(check_quiet(c, v->quiet.item[i], fault));
+  for (int64_t i = 0; i < v->loads.count; i++)
     CDEM_TRY(edge_load(c, i, fault));
   return c->loads > 0 ? cdem_dem_want_applied(&c->grains->dem, fault) : CDEM_OK;
 }
