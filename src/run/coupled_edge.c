@@ -195,6 +195,23 @@ static void take_components(const cdem_case_components *from, bool velocity, int
   }
 }
 
+/* Nodes may stand elsewhere at once, grains cannot. */
+static cdem_status check_start(const cdem_run_coupled *c, int64_t index, cdem_fault *fault) {
+  const cdem_case_components *moved = &cdem_run_values(c->run)->supports.item[index].displacement;
+  char key[96], full[128];
+  cdem_run_key(key, "supports", index, "displacement");
+  for (int k = 0; k < 4; k++) {
+    double start = moved->given[k] ? cdem_series_at(&moved->component[k], 0.0) : 0.0;
+    snprintf(full, sizeof full, "%s.%s", key, cdem_run_component[k]);
+    if (start != 0.0)
+      return cdem_case_fail(&c->run->cases, full, CDEM_INPUT, fault,
+                            "%s is %g at t = 0, and the grains at this support cannot jump there; "
+                            "let it start from 0, as {ramp: %g, over: TIME} does",
+                            cdem_run_component[k], start, start);
+  }
+  return CDEM_OK;
+}
+
 static cdem_status support(cdem_run_coupled *c, int64_t index, bool *touch, cdem_fault *fault) {
   const cdem_case_support *wanted = &cdem_run_values(c->run)->supports.item[index];
   cdem_grains *grains = &c->grains->grains;
@@ -211,7 +228,9 @@ static cdem_status support(cdem_run_coupled *c, int64_t index, bool *touch, cdem
     cdem_run_guided *guide;
     if (!touch[i] || grains->motion[i] == CDEM_GRAIN_DRIVEN)
       continue;
-    status = guide_of(c, (int32_t)i, &guide, fault);
+    status = check_start(c, index, fault);
+    if (status == CDEM_OK)
+      status = guide_of(c, (int32_t)i, &guide, fault);
     if (status == CDEM_OK) {
       take_components(&wanted->displacement, false, grains->dim, guide);
       take_components(&wanted->velocity, true, grains->dim, guide);
