@@ -183,16 +183,27 @@ static cdem_status guide_of(cdem_run_coupled *c, int32_t grain, cdem_run_guided 
   return CDEM_OK;
 }
 
-static void take_components(const cdem_case_components *from, bool velocity, int dim,
-                            cdem_run_guided *guide) {
+static cdem_status take_components(const cdem_run_coupled *c, const cdem_case_support *support,
+                                   bool velocity, cdem_run_guided *guide, cdem_fault *fault) {
   static const int of[4] = {0, 1, 2, 5}; /* x y z rotation */
+  const cdem_case_components *from = velocity ? &support->velocity : &support->displacement;
+  const double *x = c->grains->grains.xyz + 3 * (int64_t)guide->grain;
   for (int k = 0; k < 4; k++) {
-    if (!from->given[k] || (k == 2 && dim == 2))
+    if (!from->given[k] || (k == 2 && c->grains->dim == 2))
       continue;
+    if ((guide->bits >> of[k] & 1u) &&
+        (guide->velocity[of[k]] != velocity ||
+         !cdem_series_same(guide->series[of[k]], &from->component[k])))
+      return cdem_case_fail(&c->run->cases, "supports", CDEM_INPUT, fault,
+                            "'%s' and a support above it prescribe %s of the grain at (%.4g, %.4g, "
+                            "%.4g m) differently; leave %s out of one of them",
+                            support->group, cdem_run_component[k], x[0], x[1], x[2],
+                            cdem_run_component[k]);
     guide->bits |= 1u << of[k];
     guide->series[of[k]] = &from->component[k];
     guide->velocity[of[k]] = velocity;
   }
+  return CDEM_OK;
 }
 
 /* Nodes may stand elsewhere at once, grains cannot. */
@@ -231,10 +242,10 @@ static cdem_status support(cdem_run_coupled *c, int64_t index, bool *touch, cdem
     status = check_start(c, index, fault);
     if (status == CDEM_OK)
       status = guide_of(c, (int32_t)i, &guide, fault);
-    if (status == CDEM_OK) {
-      take_components(&wanted->displacement, false, grains->dim, guide);
-      take_components(&wanted->velocity, true, grains->dim, guide);
-    }
+    if (status == CDEM_OK)
+      status = take_components(c, wanted, false, guide, fault);
+    if (status == CDEM_OK)
+      status = take_components(c, wanted, true, guide, fault);
   }
   return status;
 }
