@@ -132,6 +132,17 @@ cdem_status cdem_series_copy(const cdem_series *from, cdem_series *to, cdem_faul
   return CDEM_OK;
 }
 
+bool cdem_series_same(const cdem_series *a, const cdem_series *b) {
+  if (a->kind != b->kind || a->points != b->points || a->offset != b->offset ||
+      a->amplitude != b->amplitude || a->frequency != b->frequency || a->phase != b->phase ||
+      a->start != b->start || a->duration != b->duration)
+    return false;
+  for (int i = 0; i < a->points && a->kind == CDEM_SERIES_TABLE; i++)
+    if (a->time[i] != b->time[i] || a->value[i] != b->value[i])
+      return false;
+  return true;
+}
+
 void cdem_series_release(cdem_series *series) {
   free(series->time);
   free(series->value);

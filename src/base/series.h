@@ -11,6 +11,8 @@
 
 #include "base/fault.h"
 
+#include <stdbool.h>
+
 typedef enum { CDEM_SERIES_TABLE, CDEM_SERIES_SINE, CDEM_SERIES_PULSE } cdem_series_kind;
 
 typedef struct {
@@ -30,6 +32,8 @@ cdem_status cdem_series_constant(double value, cdem_series *series, cdem_fault *
 cdem_status cdem_series_table(int points, const double *time, const double *value,
                               cdem_series *series, cdem_fault *fault);
 cdem_status cdem_series_copy(const cdem_series *from, cdem_series *to, cdem_fault *fault);
+/* Written alike: the same kind and the same numbers. */
+bool cdem_series_same(const cdem_series *a, const cdem_series *b);
 void cdem_series_release(cdem_series *series);
 
 #endif

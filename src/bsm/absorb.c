@@ -49,10 +49,14 @@ cdem_status cdem_absorb_cells(const cdem_mesh *mesh, int32_t cells, const int32_
   for (int32_t c = 0; c < mesh->cells; c++)
     if (state[c] == OTHER && cdem_shape_get((cdem_shape)mesh->cell_shape[c])->dimension == dim)
       mark_nodes(mesh, c, met);
-  for (int l = 0; l < layers; l++) {
+  bool more = true;
+  for (int l = 0; l < layers && more; l++) {
+    more = false;
     for (int32_t i = 0; i < cells; i++)
-      if (state[cell[i]] == FREE && touches(mesh, cell[i], met))
+      if (state[cell[i]] == FREE && touches(mesh, cell[i], met)) {
         state[cell[i]] = TAKEN;
+        more = true;
+      }
     for (int32_t i = 0; i < cells; i++)
       if (state[cell[i]] == TAKEN)
         mark_nodes(mesh, cell[i], met);

@@ -66,22 +66,12 @@ static cdem_status check_steps(const cdem_coupling_options *o, cdem_fault *fault
 
 /* ---- forces of the grains on the body ---- */
 
-/* What acts on fine grains beside contacts: their weight, and what is applied. */
-static void add_outside(const cdem_coupling *c, const cdem_tie *tie, double *on) {
-  const cdem_dem_options *o = cdem_dem_options_of(c->options.fine);
-  const double *radius = cdem_dem_radius(c->options.fine);
-  const int32_t *material = cdem_dem_material(c->options.fine);
-  double thickness = tie->dim == 2 ? (o->thickness > 0.0 ? o->thickness : 1.0) : 1.0;
-  for (int64_t a = 0; a < tie->grains; a++) {
-    int32_t id = tie->grain[a];
-    double mass =
-        o->material[material[id]].density * thickness * cdem_grain_solid(tie->dim, radius[id]);
-    for (int k = 0; k < 6; k++) {
-      on[6 * a + k] += k < 3 ? mass * o->gravity[k] : 0.0;
-      on[6 * a + k] +=
-          c->options.fine->applied != NULL ? c->options.fine->applied[6 * id + k] : 0.0;
-    }
-  }
+/* What is applied to fine grains beside contacts. Their weight is not among it: the body's solver
+ * weighs its nodes, whose masses hold those of the grains. */
+static void add_applied(const cdem_dem *fine, const cdem_tie *tie, double *on) {
+  for (int64_t a = 0; fine->applied != NULL && a < tie->grains; a++)
+    for (int k = 0; k < 6; k++)
+      on[6 * a + k] += fine->applied[6 * (int64_t)tie->grain[a] + k];
 }
 
 static void take_reactions(cdem_coupling *c) {
@@ -92,7 +82,7 @@ static void take_reactions(cdem_coupling *c) {
   cdem_tie_forces(o->tie, c->on, c->reaction);
   if (o->fine_tie != NULL) {
     cdem_dem_forces_on(o->fine, o->fine_tie->grains, o->fine_tie->grain, c->on);
-    add_outside(c, o->fine_tie, c->on);
+    add_applied(o->fine, o->fine_tie, c->on);
     cdem_tie_forces(o->fine_tie, c->on, c->reaction);
   }
   memcpy(o->coarse->applied, c->reaction, count * sizeof *c->reaction);

@@ -25,11 +25,11 @@
  *              body's.
  *
  * virtual work N^T F over fine and interface grains, F holding every contact of at least one fine
- *              grain and what acts on fine grains from outside; nodes of the fine region have the
- *              lumped row sums of N^T Mp N added to their masses and move by these forces. (A sum
- *              over fine grains alone, a literal reading of eq. 16, leaves out the reaction of the
- *              interface and is wrong by all of it.) The motion of inner nodes is then no
- *              projection, and is for looking at only.
+ *              grain and what is applied to fine grains; nodes of the fine region have the lumped
+ *              row sums of N^T Mp N added to their masses, with which the body's solver weighs and
+ *              damps the grains, and move by these forces. (A sum over fine grains alone, a literal
+ *              reading of eq. 16, leaves out the reaction of the interface and is wrong by all of
+ *              it.) The motion of inner nodes is then no projection, and is for looking at only.
  *
  * Both solvers are the caller's, borrowed, at the same time, and have fixed steps: that of the body
  * is m times that of the grains.

@@ -18,6 +18,10 @@ static bool touches(const cdem_bsm_frame *f, const cdem_grains *grains, int64_t 
   return depth >= -radius && depth <= radius + reach && cdem_bsm_on_face(f, x, margin * radius);
 }
 
+static bool is_driven(const cdem_grains *grains, int64_t i) {
+  return grains->motion != NULL && grains->motion[i] == CDEM_GRAIN_DRIVEN;
+}
+
 static double largest_radius(const cdem_grains *grains) {
   double largest = 0.0;
   for (int64_t i = 0; i < grains->grains; i++)
@@ -158,7 +162,7 @@ static cdem_status one_face(const cdem_bsm_frame *f, const cdem_grains *grains, 
   bool touched = false;
   /* Hats reach over the corners of a face to the next grain beyond it. */
   for (int64_t i = 0; i < grains->grains; i++)
-    if (touches(f, grains, i, reach, 3.0)) {
+    if (!is_driven(grains, i) && touches(f, grains, i, reach, 3.0)) {
       double way[3];
       for (int c = 0; c < 3; c++)
         way[c] = grains->xyz[3 * i + c] - f->x[0][c];

@@ -6,6 +6,7 @@
  * N_a the interpolation between the points where grains touch the edge: linear between neighbours
  * in 2-D, exactly integrated; in 3-D the part of the face that is nearer to grain a's point than to
  * any other's. Both are partitions of unity, so that the sum of the forces is that of the traction.
+ * Driven grains, which obey no force, carry none: beside them the interpolation is constant.
  */
 #ifndef CDEM_BSM_TRACTION_H
 #define CDEM_BSM_TRACTION_H
@@ -26,7 +27,8 @@ void cdem_bsm_touching(const cdem_mesh *mesh, int64_t faces, const cdem_bsm_face
                        const cdem_grains *grains, double gap, bool *touch);
 
 /* area [grains] += the integral of N_a over the faces, m^2; normal [grains][3] += that of N_a n, n
- * outward; either may be NULL. CDEM_INPUT: a face that no grain touches (its place). */
+ * outward; either may be NULL. CDEM_INPUT: a face that no grain touches which may move (its place).
+ */
 cdem_status cdem_bsm_tributary(const cdem_mesh *mesh, int64_t faces, const cdem_bsm_face *face,
                                const cdem_grains *grains, double gap, double thickness,
                                double *area, double *normal, cdem_fault *fault);

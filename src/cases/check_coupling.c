@@ -1,7 +1,7 @@
 /* Checks of a coupled case: grains inside a body. */
 #include "cases/check.h"
 
-#include <math.h>
+#include <string.h>
 
 static cdem_status check_region(const cdem_case *cases, int64_t index, cdem_fault *fault) {
   const cdem_case_region *region = &cases->values.coupling.regions.item[index];
@@ -29,6 +29,23 @@ static cdem_status check_foreign(const cdem_case *cases, cdem_fault *fault) {
   return CDEM_OK;
 }
 
+/* Walls are those of grains; a medium without grains would not know that it is pushed. */
+static cdem_status check_walls(const cdem_case *cases, cdem_fault *fault) {
+  const cdem_case_values *v = &cases->values;
+  char key[CDEM_CASE_PATH];
+  for (int64_t w = 0; w < v->walls.count; w++) {
+    bool met = false;
+    for (int64_t p = 0; p < v->plates.count; p++)
+      met = met || strcmp(v->plates.item[p].name, v->walls.item[w].name) == 0;
+    if (!met)
+      return cdem_case_fail(
+          cases, cdem_case_named_key(key, "walls", v->walls.item[w].name, ""), CDEM_INPUT, fault,
+          "the version 'continuum' has no grains that this wall could push; add a plate of the "
+          "same name to 'plates'");
+  }
+  return CDEM_OK;
+}
+
 cdem_status cdem_case_check_coupling(const cdem_case *cases, cdem_fault *fault) {
   const cdem_case_coupling *c = &cases->values.coupling;
   if (c->regions.count == 0)
@@ -37,5 +54,7 @@ cdem_status cdem_case_check_coupling(const cdem_case *cases, cdem_fault *fault) 
                           "calculated");
   for (int64_t i = 0; i < c->regions.count; i++)
     CDEM_TRY(check_region(cases, i, fault));
+  if (c->version == CDEM_VERSION_CONTINUUM)
+    CDEM_TRY(check_walls(cases, fault));
   return check_foreign(cases, fault);
 }

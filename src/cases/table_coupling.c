@@ -33,10 +33,10 @@ static const cdem_case_key keys[] = {
      .help = "Force of the grains on the coarse medium: of interface grains only, or the virtual "
              "work of all, with the grains' masses in the nodes of the fine region.",
      .example = "virtual-work"},
-    {COUPLING(cycles), .kind = CDEM_KEY_INTEGER, NOT_NEGATIVE,
+    {COUPLING(cycles), .kind = CDEM_KEY_INTEGER, BETWEEN(0, 1e6),
      .otherwise = "as many as are stable, 20 at most",
-     .help = "Steps of the grains in one step of the coarse medium; 0: automatic. Versions without "
-             "a coarse medium take the same steps.",
+     .help = "Steps of the grains in one step of the coarse medium; 0: automatic. A number that is "
+             "given holds for frozen and grains, too, so that they take the same steps.",
      .example = "10"},
     {COUPLING(interface_motion), .kind = CDEM_KEY_CHOICE, .choice = motions,
      .help =
@@ -60,7 +60,7 @@ static const cdem_case_key keys[] = {
          "wave speed by element length for one layer of elements, 2 times for two. It resists "
          "slip bands that cross the layer, too: for grains that stay together there.",
      .example = "2000 1/s"},
-    {COUPLING(absorb_layers), .kind = CDEM_KEY_INTEGER, .fallback = 1, AT_LEAST(1),
+    {COUPLING(absorb_layers), .kind = CDEM_KEY_INTEGER, .fallback = 1, BETWEEN(1, 1e6),
      .help = "Width of that layer, in elements of the fine region.", .example = "2"},
 };
 const cdem_case_section cdem_section_coupling =

@@ -10,17 +10,6 @@ static const cdem_mesh *mesh_of(const cdem_solver *solver) {
 
 /* ---- supports ---- */
 
-static bool same_series(const cdem_series *a, const cdem_series *b) {
-  if (a->kind != b->kind || a->points != b->points || a->offset != b->offset ||
-      a->amplitude != b->amplitude || a->frequency != b->frequency || a->phase != b->phase ||
-      a->start != b->start || a->duration != b->duration)
-    return false;
-  for (int i = 0; i < a->points && a->kind == CDEM_SERIES_TABLE; i++)
-    if (a->time[i] != b->time[i] || a->value[i] != b->value[i])
-      return false;
-  return true;
-}
-
 double cdem_support_path(const cdem_support *support, double time) {
   return support->velocity ? cdem_series_integral(&support->series, time)
                            : cdem_series_at(&support->series, time);
@@ -42,7 +31,7 @@ static cdem_status claim(cdem_solver *solver, int index, int32_t node, cdem_faul
   if (*owner >= 0) {
     const cdem_support *other = &s->options.support[*owner];
     CDEM_REQUIRE(other->velocity == support->velocity &&
-                     same_series(&other->series, &support->series),
+                     cdem_series_same(&other->series, &support->series),
                  fault, CDEM_INPUT,
                  "supports '%s' and '%s' prescribe component %d of node %lld differently; take the "
                  "node out of one of them",

@@ -80,6 +80,7 @@ static inline cdem_projector_shape cdem_run_coupled_shape(const cdem_run_coupled
 
 /* coupled_parts.c: which cells and grains are fine; grains that are not needed go */
 cdem_status cdem_run_coupled_cells(cdem_run_coupled *c, cdem_fault *fault);
+cdem_status cdem_run_coupled_check_grains(const cdem_run_coupled *c, cdem_fault *fault);
 cdem_status cdem_run_coupled_divide(cdem_run_coupled *c, cdem_fault *fault);
 /* ... the operators between them, once both solvers' inputs stand */
 cdem_status cdem_run_coupled_projector(cdem_run_coupled *c, cdem_fault *fault);

@@ -119,8 +119,37 @@ static cdem_status add_faces(const cdem_run_coupled *c, const cdem_group *group,
   return CDEM_OK;
 }
 
-/* Faces of the group of the value at `key`. Groups of other kinds have none, which is an error
- * where everything is grains. */
+/* Nodes and cells that the body does not have: those of fine cells alone. */
+static cdem_status check_outside(const cdem_run_coupled *c, const char *key,
+                                 const cdem_group *group, cdem_fault *fault) {
+  const cdem_mesh *mesh = &c->body->mesh;
+  int dim = cdem_mesh_dimension(mesh);
+  bool fine = c->version == CDEM_VERSION_GRAINS, cells = group->dimension == dim;
+  uint8_t *outer = cdem_allocate(mesh->nodes, 1, fault);
+  if (outer == NULL)
+    return CDEM_MEMORY;
+  for (int32_t i = 0; i < c->partition.outer_cells; i++)
+    for (int64_t k = mesh->cell_start[c->partition.outer_cell[i]];
+         k < mesh->cell_start[c->partition.outer_cell[i] + 1]; k++)
+      outer[mesh->cell_node[k]] = 1;
+  for (int32_t i = 0; i < group->cells && !fine; i++) {
+    fine = cells && is_fine(c, group->cell[i]);
+    for (int64_t k = mesh->cell_start[group->cell[i]]; k < mesh->cell_start[group->cell[i] + 1];
+         k++)
+      fine = fine || !outer[mesh->cell_node[k]];
+  }
+  free(outer);
+  if (!fine)
+    return CDEM_OK;
+  return cdem_case_fail(&c->run->cases, key, CDEM_INPUT, fault,
+                        "grains are held and loaded through groups of %s; '%s' is none%s",
+                        dim == 2 ? "edges" : "faces", group->name,
+                        c->version == CDEM_VERSION_GRAINS ? ""
+                                                          : " and reaches into the fine region");
+}
+
+/* Faces with grains of the group of the value at `key`. Groups of other kinds have none, which is
+ * an error where grains are. */
 static cdem_status faces_of(const cdem_run_coupled *c, const char *key, const char *name,
                             face_list *list, cdem_fault *fault) {
   const cdem_mesh *mesh = &c->body->mesh;
@@ -130,11 +159,7 @@ static cdem_status faces_of(const cdem_run_coupled *c, const char *key, const ch
   *list = (face_list){0};
   CDEM_TRY(cdem_run_find_group(c->body, key, name, 0, 3, &group, fault));
   if (group->dimension != dim - 1)
-    return c->version != CDEM_VERSION_GRAINS
-               ? CDEM_OK
-               : cdem_case_fail(&c->run->cases, key, CDEM_INPUT, fault,
-                                "grains are held and loaded through groups of %s; '%s' is none",
-                                dim == 2 ? "edges" : "faces", name);
+    return check_outside(c, key, group, fault);
   cdem_status status = cells_by_node(mesh, &by, fault);
   if (status == CDEM_OK)
     status = add_faces(c, group, &by, list, fault);
@@ -158,16 +183,44 @@ static cdem_status guide_of(cdem_run_coupled *c, int32_t grain, cdem_run_guided 
   return CDEM_OK;
 }
 
-static void take_components(const cdem_case_components *from, bool velocity, int dim,
-                            cdem_run_guided *guide) {
+static cdem_status take_components(const cdem_run_coupled *c, const cdem_case_support *support,
+                                   bool velocity, cdem_run_guided *guide, cdem_fault *fault) {
   static const int of[4] = {0, 1, 2, 5}; /* x y z rotation */
+  const cdem_case_components *from = velocity ? &support->velocity : &support->displacement;
+  const double *x = c->grains->grains.xyz + 3 * (int64_t)guide->grain;
   for (int k = 0; k < 4; k++) {
-    if (!from->given[k] || (k == 2 && dim == 2))
+    if (!from->given[k] || (k == 2 && c->grains->dim == 2))
       continue;
+    if ((guide->bits >> of[k] & 1u) &&
+        (guide->velocity[of[k]] != velocity ||
+         !cdem_series_same(guide->series[of[k]], &from->component[k])))
+      return cdem_case_fail(&c->run->cases, "supports", CDEM_INPUT, fault,
+                            "'%s' and a support above it prescribe %s of the grain at (%.4g, %.4g, "
+                            "%.4g m) differently; leave %s out of one of them",
+                            support->group, cdem_run_component[k], x[0], x[1], x[2],
+                            cdem_run_component[k]);
     guide->bits |= 1u << of[k];
     guide->series[of[k]] = &from->component[k];
     guide->velocity[of[k]] = velocity;
   }
+  return CDEM_OK;
+}
+
+/* Nodes may stand elsewhere at once, grains cannot. */
+static cdem_status check_start(const cdem_run_coupled *c, int64_t index, cdem_fault *fault) {
+  const cdem_case_components *moved = &cdem_run_values(c->run)->supports.item[index].displacement;
+  char key[96], full[128];
+  cdem_run_key(key, "supports", index, "displacement");
+  for (int k = 0; k < 4; k++) {
+    double start = moved->given[k] ? cdem_series_at(&moved->component[k], 0.0) : 0.0;
+    snprintf(full, sizeof full, "%s.%s", key, cdem_run_component[k]);
+    if (start != 0.0)
+      return cdem_case_fail(&c->run->cases, full, CDEM_INPUT, fault,
+                            "%s is %g at t = 0, and the grains at this support cannot jump there; "
+                            "let it start from 0, as {ramp: %g, over: TIME} does",
+                            cdem_run_component[k], start, start);
+  }
+  return CDEM_OK;
 }
 
 static cdem_status support(cdem_run_coupled *c, int64_t index, bool *touch, cdem_fault *fault) {
@@ -186,11 +239,13 @@ static cdem_status support(cdem_run_coupled *c, int64_t index, bool *touch, cdem
     cdem_run_guided *guide;
     if (!touch[i] || grains->motion[i] == CDEM_GRAIN_DRIVEN)
       continue;
-    status = guide_of(c, (int32_t)i, &guide, fault);
-    if (status == CDEM_OK) {
-      take_components(&wanted->displacement, false, grains->dim, guide);
-      take_components(&wanted->velocity, true, grains->dim, guide);
-    }
+    status = check_start(c, index, fault);
+    if (status == CDEM_OK)
+      status = guide_of(c, (int32_t)i, &guide, fault);
+    if (status == CDEM_OK)
+      status = take_components(c, wanted, false, guide, fault);
+    if (status == CDEM_OK)
+      status = take_components(c, wanted, true, guide, fault);
   }
   return status;
 }
@@ -243,8 +298,24 @@ static cdem_status edge_load(cdem_run_coupled *c, int64_t index, cdem_fault *fau
   return status;
 }
 
+/* A free edge in the place of a quiet one would throw all waves back. */
+static cdem_status check_quiet(const cdem_run_coupled *c, const char *name, cdem_fault *fault) {
+  face_list list;
+  cdem_status status = faces_of(c, "quiet", name, &list, fault);
+  free(list.face);
+  if (status == CDEM_OK && list.faces > 0)
+    status = cdem_case_fail(&c->run->cases, "quiet", CDEM_INPUT, fault,
+                            "'%s' has grains behind it, which have no quiet boundary; take a group "
+                            "of the coarse medium, or `mass_damping`",
+                            name);
+  return status;
+}
+
 cdem_status cdem_run_coupled_loads(cdem_run_coupled *c, cdem_fault *fault) {
-  for (int64_t i = 0; i < cdem_run_values(c->run)->loads.count; i++)
+  const cdem_case_values *v = cdem_run_values(c->run);
+  for (int64_t i = 0; i < v->quiet.count; i++)
+    CDEM_TRY(check_quiet(c, v->quiet.item[i], fault));
+  for (int64_t i = 0; i < v->loads.count; i++)
     CDEM_TRY(edge_load(c, i, fault));
   return c->loads > 0 ? cdem_dem_want_applied(&c->grains->dem, fault) : CDEM_OK;
 }

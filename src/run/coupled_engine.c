@@ -21,6 +21,8 @@ static cdem_status build_grains(cdem_run_coupled *c, const cdem_state *checkpoin
                                 cdem_fault *fault) {
   view_of(c->run, &cdem_run_engine_grains, &c->grains_run);
   CDEM_TRY(cdem_run_grains_create(&c->grains_run, checkpoint, &c->grains, fault));
+  if (checkpoint == NULL)
+    CDEM_TRY(cdem_run_coupled_check_grains(c, fault));
   CDEM_TRY(cdem_run_coupled_divide(c, fault));
   CDEM_TRY(cdem_run_coupled_supports(c, fault));
   CDEM_TRY(cdem_run_grains_build(c->grains, checkpoint, fault));

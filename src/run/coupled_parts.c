@@ -31,6 +31,22 @@ cdem_status cdem_run_coupled_cells(cdem_run_coupled *c, cdem_fault *fault) {
 
 /* ---- grains ---- */
 
+/* The medium starts at rest, and driven grains are those of the interface: with others the two
+ * books of energy would not meet. */
+cdem_status cdem_run_coupled_check_grains(const cdem_run_coupled *c, cdem_fault *fault) {
+  const cdem_grains *g = &c->grains->grains;
+  for (int64_t i = 0; i < g->grains; i++) {
+    bool driven = g->motion != NULL && g->motion[i] == CDEM_GRAIN_DRIVEN;
+    bool moves = (g->velocity != NULL && cdem_norm3(g->velocity + 3 * i) > 0.0) ||
+                 (g->spin != NULL && cdem_norm3(g->spin + 3 * i) > 0.0);
+    if (driven || moves)
+      return cdem_case_fail(&c->run->cases, "grains", CDEM_INPUT, fault,
+                            "grain %lld %s; grains in a body are free and start at rest",
+                            (long long)i, driven ? "is driven" : "moves at the start");
+  }
+  return CDEM_OK;
+}
+
 /* Keeps the grains whose mark is not CDEM_PART_AWAY, in their order. */
 static void keep_grains(cdem_run_grains *g, const uint8_t *part) {
   cdem_grains *grains = &g->grains;

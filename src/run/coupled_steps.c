@@ -1,8 +1,8 @@
 /* The two steps of a coupled run, and how many of the one make one of the other.
  *
  * The grains' step is the case's, or a fraction of their limit; the body takes m of them. A whole
- * number of the body's steps ends at `end`, and all versions of a case take the same steps, so that
- * their rows can be compared. */
+ * number of the body's steps ends at `end`. With a step and a number of cycles in the case, all
+ * versions with grains take the same steps, so that their rows can be compared. */
 #include "run/coupled.h"
 #include "run/output.h"
 

@@ -205,6 +205,22 @@ static void carets(void **state) {
   assert_true(strlen(out) < 200);
 }
 
+static void alike(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  const double time[2] = {0.0, 1.0}, value[2] = {2.0, 3.0}, other[2] = {2.0, 4.0};
+  cdem_series a, b, c;
+  const cdem_series sine = {.kind = CDEM_SERIES_SINE, .amplitude = 1.0};
+  assert_int_equal(cdem_series_table(2, time, value, &a, &fault), CDEM_OK);
+  assert_int_equal(cdem_series_copy(&a, &b, &fault), CDEM_OK);
+  assert_int_equal(cdem_series_table(2, time, other, &c, &fault), CDEM_OK);
+  assert_true(cdem_series_same(&a, &b) && cdem_series_same(&sine, &sine));
+  assert_false(cdem_series_same(&a, &c) || cdem_series_same(&a, &sine));
+  cdem_series_release(&a);
+  cdem_series_release(&b);
+  cdem_series_release(&c);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(tables),
@@ -212,6 +228,7 @@ int main(void) {
       cmocka_unit_test(sines),
       cmocka_unit_test(pulses),
       cmocka_unit_test(integrals_agree_with_quadrature),
+      cmocka_unit_test(alike),
       cmocka_unit_test(wrong_tables),
       cmocka_unit_test(carets),
   };

@@ -66,6 +66,28 @@ static void uniform_motion(void **state) {
   }
 }
 
+/* Free fall: the same for all, whichever form adds the weight of the grains to the nodes. */
+static void free_fall(void **state) {
+  (void)state;
+  for (int k = 0; k < 4; k++) {
+    pair p;
+    pair_options o = pair_chosen(true, 1);
+    memset(o.velocity, 0, sizeof o.velocity);
+    o.gravity = -10.0;
+    o.form = k & 1 ? CDEM_BSM_VIRTUAL_WORK : CDEM_BSM_INTERFACE;
+    o.cosserat = k & 2;
+    pair_make(&o, &p);
+    pair_start(&p);
+    pair_run(&p, 50);
+    double wanted = o.gravity * (p.solver.time - 0.5 * p.solver.step); /* v is half a step behind */
+    for (int32_t n = 0; n < p.solver.nodes; n++)
+      if (p.body.mass[n * p.solver.dofs] > 0.0)
+        check_near(p.solver.v[n * p.solver.dofs + 1], wanted, 1e-8, 0.0);
+    check_near(p.coupling.work, 0.0, 0.0, 1e-8);
+    pair_release(&p);
+  }
+}
+
 /* ---- bits ---- */
 
 static void check_same_bits(const pair *a, const pair *b) {
@@ -203,6 +225,7 @@ int main(void) {
       cmocka_unit_test(one_cycle),        cmocka_unit_test(uniform_motion),
       cmocka_unit_test(threads_and_bits), cmocka_unit_test(save_and_restore),
       cmocka_unit_test(refusals),         cmocka_unit_test(the_limit),
+      cmocka_unit_test(free_fall),
   };
   return cmocka_run_group_tests_name("bsm coupling", tests, NULL, NULL);
 }

@@ -16,6 +16,7 @@ typedef struct {
   int cycles;
   double part;    /* of the longest coupled step; 0: the grains step by a fifth of their limit */
   double density; /* of the body, in that of the grains; 0: 1 */
+  double gravity; /* m/s^2 along y, of body and grains */
   bool cosserat;
   int threads;
 } pair_options;
@@ -138,6 +139,7 @@ static inline void pair_bonds(const pair_options *o, pair *p) {
   p->grains.options.bonds = bonds;
   p->grains.options.bond = p->bond;
   p->grains.options.threads = o->threads;
+  p->grains.options.gravity[1] = o->gravity;
   check_ok(cdem_dem_init(&p->grains.options, &p->dem, &fault));
 }
 
@@ -197,6 +199,7 @@ static inline void pair_steps(const pair_options *o, pair *p) {
   char limiter[64];
   cdem_solver_options solver = {
       .body = &p->body, .thickness = 1.0, .velocity = p->velocity, .threads = o->threads};
+  solver.gravity[1] = o->gravity;
   check_ok(cdem_solver_init(&solver, &p->solver, &fault));
   double own = cdem_solver_limit(&p->solver, limiter);
   double limit = cdem_dem_limit(&p->dem, limiter), step = 0.2 * limit;

@@ -115,6 +115,35 @@ static void regular_row(void **state) {
   scene_release(&s);
 }
 
+/* Grains that go their own way carry nothing, and nothing is lost at them. */
+static void driven_neighbours(void **state) {
+  (void)state;
+  for (int solid = 0; solid < 2; solid++) {
+    scene s;
+    scene_mesh(solid ? CDEM_SHAPE_HEX8 : CDEM_SHAPE_QUAD4, 0.0, &s);
+    lattice(&s, 1.0 / 32.0);
+    s.grains.motion = cdem_allocate(s.grains.grains, sizeof *s.grains.motion, &fault);
+    for (int64_t i = 0; i < s.grains.grains; i++)
+      if (s.grains.xyz[3 * i] > 0.5)
+        s.grains.motion[i] = CDEM_GRAIN_DRIVEN;
+    for (int64_t k = s.faces - 1; k >= 0; k--) { /* the faces beside them alone */
+      double most = 0.0;
+      for (int c = 0; c < s.face[k].corners; c++)
+        most = fmax(most, s.mesh.xyz[3 * s.face[k].node[c]]);
+      if (most > 0.5)
+        s.face[k] = s.face[--s.faces];
+    }
+    share(&s, 1.0);
+    for (int64_t i = 0; i < s.grains.grains; i++)
+      if (s.grains.motion[i] == CDEM_GRAIN_DRIVEN)
+        assert_true(s.area[i] == 0.0);
+      else if (!solid && s.area[i] > 0.0)
+        check_near(s.area[i], 1.0 / 16.0, 1e-12, 0.0);
+    check_near(moment(&s, 1.0, 0.0, 0), 0.5, 1e-12, 0.0);
+    scene_release(&s);
+  }
+}
+
 /* Discs of any size at random places of the edge, the outermost beyond its ends: between them
  * linear fields are exact. */
 static void random_row(void **state) {
@@ -296,13 +325,10 @@ static void arrays_are_added_to(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(regular_row),
-      cmocka_unit_test(random_row),
-      cmocka_unit_test(sloping_edge),
-      cmocka_unit_test(faces_in_space),
-      cmocka_unit_test(bent_and_narrow_faces),
-      cmocka_unit_test(touching_set),
-      cmocka_unit_test(refusals),
+      cmocka_unit_test(regular_row),         cmocka_unit_test(driven_neighbours),
+      cmocka_unit_test(random_row),          cmocka_unit_test(sloping_edge),
+      cmocka_unit_test(faces_in_space),      cmocka_unit_test(bent_and_narrow_faces),
+      cmocka_unit_test(touching_set),        cmocka_unit_test(refusals),
       cmocka_unit_test(arrays_are_added_to),
   };
   return cmocka_run_group_tests_name("bsm traction", tests, NULL, NULL);

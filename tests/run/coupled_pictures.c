@@ -21,6 +21,7 @@
   "contacts: [{normal_stiffness: 2.5e8, shear_stiffness: 5e7, friction: 0.5, damping_ratio: 0}]\n" \
   "walls: {plate: {shape: plate, center: [0, 0], normal: [0, -1], half_size: [0.5], "              \
   "velocity: {y: -1}}}\n"                                                                          \
+  "plates: {plate: {point: [0, 0], normal: [0, -1], half_size: [0.5], velocity: {y: -1}}}\n"       \
   "coupling: {regions: [{low: [-1, -1], high: [1, 0.1]}], rotation: scaled, cycles: 5}\n"
 
 /* Numbers of the line of a script that starts with `word`. */
