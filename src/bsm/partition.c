@@ -90,7 +90,6 @@ cdem_status cdem_bsm_cells(const cdem_mesh *mesh, int boxes, const cdem_bsm_box 
 /* ---- neighbours of fine grains ---- */
 
 typedef struct {
-  int dim;
   double low[3], size;
   int64_t count[3], *start;
   int32_t *item;
@@ -173,7 +172,7 @@ static bool near_fine(const cdem_grains *grains, const bins *b, int64_t i, doubl
 static cdem_status mark_interface(const cdem_grains *grains, double gap, cdem_partition *p,
                                   cdem_fault *fault) {
   double largest = 0.0;
-  bins b = {.dim = grains->dim};
+  bins b = {0};
   for (int64_t i = 0; i < grains->grains; i++)
     largest = fmax(largest, grains->radius[i]);
   cdem_status status = sort_fine(grains, p->part, (2.0 + gap) * largest, &b, fault);
