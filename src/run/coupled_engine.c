@@ -159,7 +159,10 @@ static void sizes(const cdem_run_setup *run, cdem_run_summary *summary) {
   if (c->has_grains)
     cdem_run_engine_grains.sizes(&c->grains_run, summary);
   summary->fine = c->fine;
-  summary->interface_grains = c->has_body && c->has_grains ? c->tie.grains : 0;
+  summary->interface_grains =
+      c->version == CDEM_VERSION_COUPLED || c->version == CDEM_VERSION_FROZEN
+          ? c->partition.interfaces
+          : 0;
   summary->cycles = c->cycles;
   summary->coarse_limit = c->coarse_limit;
   summary->wall_fine = c->coupling.cost.fine;
