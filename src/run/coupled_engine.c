@@ -177,7 +177,7 @@ static void put_sizes(cdem_json *json, const cdem_run_summary *summary) {
   cdem_json_integer(json, "interface_grains", summary->interface_grains);
   cdem_json_integer(json, "cycles", summary->cycles);
   cdem_json_real(json, "coarse_step_limit", summary->coarse_limit);
-  if (summary->interface_grains > 0) {
+  if (summary->coarse_limit > 0.0) {
     cdem_json_real(json, "wall_fine", summary->wall_fine);
     cdem_json_real(json, "wall_coarse", summary->wall_coarse);
     cdem_json_real(json, "wall_transfer", summary->wall_transfer);
