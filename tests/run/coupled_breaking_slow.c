@@ -60,20 +60,12 @@ static const char solid[] =
     "coupling: {regions: [{low: [-0.2, -0.2, -0.4], high: [0.2, 0.2, 0.1]}], cycles: 2}\n"
     "results: {load: {of: load.plate.fz, take: last}, error: {of: energy_error, take: last}}\n";
 
-static void check_same_files(const char *a, const char *b) {
-  const char *const files[] = {"history.csv", "body/body-000004.vtu",
-                               "interfaces/interfaces-000004.vtu", "grains/grains-000004.vtu",
-                               "projection/projection-000004.vtu"};
-  for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-    char one[256], other[256];
-    snprintf(one, sizeof one, "%s/%s", a, files[i]);
-    snprintf(other, sizeof other, "%s/%s", b, files[i]);
-    if (!is_there(one))
-      fail_msg("%s is missing", one);
-    if (!same_files(one, other))
-      fail_msg("%s is not %s", other, one);
-  }
-}
+static const char *const written[] = {"history.csv",
+                                      "body/body-000004.vtu",
+                                      "interfaces/interfaces-000004.vtu",
+                                      "grains/grains-000004.vtu",
+                                      "projection/projection-000004.vtu",
+                                      NULL};
 
 /* Both parts break, else the tests below say little. */
 static void blocks_and_bonds_break(void **state) {
@@ -96,7 +88,7 @@ static void a_continued_run_gives_the_same_bits(void **state) {
     check_fails(run_until("broken", false, stop_at, 2, &fault), CDEM_INTERRUPTED,
                 "continue with `cdem run --resume");
     check_ok(run_until("broken", true, 1 << 30, 1, &fault));
-    check_same_files("whole", "broken");
+    check_same_files("whole", "broken", written);
     check_same_state("whole", "broken");
   }
 }
@@ -107,7 +99,7 @@ static void two_threads_give_the_bits_of_one(void **state) {
   write_case("box.yaml", box);
   check_ok(run_until("one", false, 1 << 30, 1, &fault));
   check_ok(run_until("two", false, 1 << 30, 2, &fault));
-  check_same_files("one", "two");
+  check_same_files("one", "two", written);
   check_same_state("one", "two");
 }
 

@@ -13,18 +13,8 @@ static const char box[] =
     "probes: {tip: {group: x1, quantity: displacement, component: y}}\n";
 
 /* All but the checkpoint, which holds the wall time. */
-static void check_same_run(const char *a, const char *b) {
-  const char *const files[] = {"history.csv", "body.pvd", "body/body-000000.vtu",
-                               "body/body-000003.vtu"};
-  for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-    char one[256], other[256];
-    snprintf(one, sizeof one, "%s/%s", a, files[i]);
-    snprintf(other, sizeof other, "%s/%s", b, files[i]);
-    assert_true(is_there(one));
-    if (!same_files(one, other))
-      fail_msg("%s is not %s", other, one);
-  }
-}
+static const char *const written[] = {"history.csv", "body.pvd", "body/body-000000.vtu",
+                                      "body/body-000003.vtu", NULL};
 
 static void a_continued_run_gives_the_same_bits(void **state) {
   (void)state;
@@ -38,7 +28,7 @@ static void a_continued_run_gives_the_same_bits(void **state) {
     check_fails(run_until("broken", true, 2, 1, &fault), CDEM_INTERRUPTED, "interrupted at step");
     check_ok(run_until("broken", true, 1 << 30, 1, &fault));
     assert_true(is_there("broken/summary.json"));
-    check_same_run("whole", "broken");
+    check_same_files("whole", "broken", written);
     check_same_state("whole", "broken");
   }
 }
@@ -57,7 +47,7 @@ static void rows_beyond_the_checkpoint_are_cut_off(void **state) {
            scratch);
   assert_int_equal(system(command), 0);
   check_ok(run_until("killed", true, 1 << 30, 1, &fault));
-  check_same_run("whole", "killed");
+  check_same_files("whole", "killed", written);
   check_same_state("whole", "killed");
 }
 

@@ -85,4 +85,17 @@ static inline bool same_files(const char *a, const char *b) {
   return system(command) == 0;
 }
 
+/* The named files of two folders are there and the same; the list ends with NULL. */
+static inline void check_same_files(const char *a, const char *b, const char *const *file) {
+  for (; *file != NULL; file++) {
+    char one[256], other[256];
+    snprintf(one, sizeof one, "%s/%s", a, *file);
+    snprintf(other, sizeof other, "%s/%s", b, *file);
+    if (!is_there(one))
+      fail_msg("%s is missing", one);
+    if (!same_files(one, other))
+      fail_msg("%s is not %s", other, one);
+  }
+}
+
 #endif
