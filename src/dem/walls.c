@@ -55,8 +55,8 @@ static void set_directions(cdem_wall *wall, int dim) {
   }
 }
 
-static cdem_status body_init(cdem_wall_body *body, int dim, const cdem_wall *wall,
-                             const cdem_grains *grains, cdem_fault *fault) {
+cdem_status cdem_wall_body_init(cdem_wall_body *body, int dim, const cdem_wall *wall,
+                                const cdem_grains *grains, cdem_fault *fault) {
   body->kind = cdem_wall_kind_of(wall->shape);
   body->wall = *wall;
   body->dim = dim;
@@ -77,7 +77,7 @@ static cdem_status fill(cdem_dem_store *s, cdem_fault *fault) {
   CDEM_NEW(walls->fill, s->grains + 1, fault);
   walls->walls = o->walls;
   for (int w = 0; w < o->walls; w++) {
-    CDEM_TRY(body_init(walls->body + w, s->dim, o->wall + w, o->grains, fault));
+    CDEM_TRY(cdem_wall_body_init(walls->body + w, s->dim, o->wall + w, o->grains, fault));
     walls->meshes = walls->meshes || o->wall[w].shape == CDEM_WALL_MESH;
   }
   return CDEM_OK;

@@ -180,8 +180,8 @@ static double servo_speed(const cdem_wall_body *body, double time, double step,
   return speed > most ? most : (speed < -most ? -most : speed);
 }
 
-static void advance(cdem_wall_body *body, double time, double step, const double *force,
-                    double stiffness) {
+void cdem_wall_body_advance(cdem_wall_body *body, double time, double step, const double *force,
+                            double stiffness) {
   double next = time + step, middle = time + 0.5 * step;
   if (body->servo) {
     static const double none[3] = {0.0, 0.0, 0.0};
@@ -207,8 +207,8 @@ void cdem_walls_advance(cdem_dem_store *s, double time, double step, const doubl
     return;
   for (int w = 0; w < walls->walls; w++) {
     cdem_wall_body *body = walls->body + w;
-    advance(body, time, step, force != NULL ? force + 6 * w : NULL,
-            stiffness != NULL ? stiffness[w] : 0.0);
+    cdem_wall_body_advance(body, time, step, force != NULL ? force + 6 * w : NULL,
+                           stiffness != NULL ? stiffness[w] : 0.0);
     *moved = fmax(*moved, body->kind->moved(body));
   }
   walls->time = time + step;

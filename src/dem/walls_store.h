@@ -132,6 +132,16 @@ cdem_status cdem_walls_arrange(cdem_dem_store *s, const cdem_wall_list *list, cd
 /* For the lists there are; 0 for a wall that does not turn. */
 void cdem_wall_set_reach(const cdem_dem_store *s, cdem_wall_body *body);
 
+/* One wall by itself, for solvers that keep walls of their own: made from a checked wall (grains:
+ * those a mesh is near, else NULL), moved to time + step with the force of the grains on it
+ * (servos; NULL: none) and the stiffness of its contacts, and what it must remember as numbers. */
+cdem_status cdem_wall_body_init(cdem_wall_body *body, int dim, const cdem_wall *wall,
+                                const cdem_grains *grains, cdem_fault *fault);
+void cdem_wall_body_advance(cdem_wall_body *body, double time, double step, const double *force,
+                            double stiffness);
+enum { CDEM_WALL_MOTION = 48 };
+void cdem_wall_body_walk(cdem_wall_body *body, double *record, bool pack);
+
 /* walls_motion.c */
 void cdem_wall_motion_init(cdem_wall_body *body);
 void cdem_wall_place(cdem_wall_body *body, double time); /* turn, directions, here */

@@ -1,0 +1,80 @@
+/* The largest stable step.
+ *
+ * Contacts of stiffness k_1, k_2, ... of a grain against its rigid motion give omega^2 <= 2 S (1/m
+ * + a^2/I) with S their sum, a the reach of the grain and I its smallest moment of inertia; the 2
+ * stands for the partners, which move too. Against the modes a contact at one node adds 2 k times
+ * how that node gives way within a step: at most mobility dt^2/(rho s^3) and, in the implicit
+ * scheme, at most compliance/s whatever the step. Stable is dt^2 omega^2 < 4 (explicit central
+ * differences), the highest mode of the grains itself included where modes are explicit. The
+ * stiffness at one node is taken as four nodes' penalty: two of each of the two surfaces.
+ */
+#include "fdem/solver_store.h"
+
+/* Largest penalty of a material against any other. */
+static double penalty_of(const cdem_fdem_options *o, int material) {
+  double most = 0.0;
+  for (int m = 0; m < o->materials; m++)
+    most = fmax(most, o->law[material * o->materials + m].penalty);
+  return most;
+}
+
+static double largest_area(const cdem_skin *surface) {
+  double most = 0.0;
+  for (int32_t i = 0; i < surface->nodes; i++)
+    most = fmax(most, surface->area[i]);
+  return most;
+}
+
+static double limit_of(const cdem_fdem_store *s, int64_t g) {
+  const cdem_fdem_options *o = &s->options;
+  const cdem_template *t = cdem_fdem_template(s, g);
+  double size = s->radius[g], density = o->density[s->material[g]];
+  double local = 4.0 * penalty_of(o, s->material[g]) * size * size * largest_area(&t->surface);
+  double stiff = fmax(s->stiff[g], local), spins = 0.0, reach = size * t->surface.reach;
+  for (int c = 0; c < 3; c++)
+    spins = fmax(spins, s->spins[9 * g + 4 * c]);
+  double rigid = 2.0 * stiff * (1.0 / s->mass[g] + reach * reach * spins);
+  double fast = 2.0 * local * t->mobility / (density * size * size * size);
+  if (o->integration == CDEM_FDEM_EXPLICIT)
+    return 2.0 / sqrt(rigid + fast + t->lambda[t->modes - 1] / (density * size * size));
+  double slow = 2.0 * local * t->compliance / size;
+  double step = 2.0 / sqrt(rigid + fast);
+  return slow < 4.0 ? fmax(step, sqrt((4.0 - slow) / rigid)) : step;
+}
+
+double cdem_fdem_limit(const cdem_fdem *fdem) {
+  double least = INFINITY;
+  for (int64_t g = 0; g < fdem->grains; g++)
+    least = fmin(least, limit_of(fdem->store, g));
+  return least;
+}
+
+static double safety_of(const cdem_fdem *fdem) {
+  double safety = fdem->store->options.safety;
+  return safety > 0.0 ? safety : 0.5;
+}
+
+cdem_status cdem_fdem_first_step(cdem_fdem *fdem, cdem_fault *fault) {
+  double limit = cdem_fdem_limit(fdem), step = fdem->store->options.step;
+  CDEM_REQUIRE(step <= limit, fault, CDEM_INPUT,
+               "the step %g s is unstable: %g s is the largest for these deformable grains and "
+               "their contacts; leave it out for an automatic one",
+               step, limit);
+  fdem->step = step > 0.0 ? step : safety_of(fdem) * limit;
+  fdem->store->kick = fdem->step;
+  return CDEM_OK;
+}
+
+/* An automatic step follows the contacts, down soon and up late. */
+void cdem_fdem_relook(cdem_fdem *fdem) {
+  cdem_fdem_store *s = fdem->store;
+  if (s->options.step > 0.0)
+    return;
+  double wanted = safety_of(fdem) * cdem_fdem_limit(fdem);
+  if (wanted >= fdem->step && wanted < 1.5 * fdem->step)
+    return;
+  s->base_time = fdem->time;
+  s->base_steps = fdem->steps;
+  s->kick = 0.5 * (fdem->step + wanted);
+  fdem->step = wanted;
+}

@@ -1,0 +1,62 @@
+/* What others see of the grains. */
+#include "fdem/solver_store.h"
+
+#include <string.h>
+
+static void copy(double *to, const double *from, int64_t count) {
+  if (to != NULL)
+    memcpy(to, from, (size_t)count * sizeof *to);
+}
+
+void cdem_fdem_look(const cdem_fdem *fdem, const cdem_fdem_view *view) {
+  const cdem_fdem_store *s = fdem->store;
+  copy(view->xyz, s->center, 3 * s->grains);
+  copy(view->velocity, s->velocity, 3 * s->grains);
+  copy(view->orientation, s->quaternion, 4 * s->grains);
+  for (int64_t g = 0; g < s->grains; g++) {
+    if (view->spin != NULL)
+      cdem_fdem_spin_of(s, g, s->turn + 9 * g, s->momentum + 3 * g, view->spin + 3 * g);
+    if (view->force == NULL)
+      continue;
+    memset(view->force + 3 * g, 0, 3 * sizeof *view->force);
+    for (int64_t i = s->first[g]; i < s->first[g + 1]; i++)
+      for (int c = 0; c < 3; c++)
+        view->force[3 * g + c] += s->force[3 * i + c];
+  }
+  if (view->contacts != NULL) {
+    cdem_contact_view seen = cdem_fdem_contact_view(s, 0.0);
+    cdem_fdem_contacts_count(s->contacts, &seen, view->contacts);
+  }
+}
+
+void cdem_fdem_places(const cdem_fdem *fdem, int64_t g, double *place) {
+  const cdem_fdem_store *s = fdem->store;
+  const cdem_template *t = cdem_fdem_template(s, g);
+  const double *turn = s->turn + 9 * g, *q = s->q + s->mode[g];
+  for (int32_t i = 0; i < t->nodes; i++) {
+    double x[3];
+    for (int c = 0; c < 3; c++)
+      x[c] = s->radius[g] * t->mesh.xyz[3 * (int64_t)i + c];
+    for (int k = 0; k < t->modes; k++)
+      for (int c = 0; c < 3; c++)
+        x[c] += t->mode[3 * ((int64_t)k * t->nodes + i) + c] * q[k];
+    for (int c = 0; c < 3; c++)
+      place[3 * (int64_t)i + c] = s->center[3 * g + c] + cdem_dot3(turn + 3 * c, x);
+  }
+}
+
+cdem_status cdem_fdem_touches(const cdem_fdem *fdem, int64_t *touches, cdem_fdem_touch **touch,
+                              cdem_fault *fault) {
+  cdem_contact_view view = cdem_fdem_contact_view(fdem->store, 0.0);
+  return cdem_fdem_contacts_list(fdem->store->contacts, &view, touches, touch, fault);
+}
+
+void cdem_fdem_wall_now(const cdem_fdem *fdem, int wall, double force[3], double center[3],
+                        double velocity[3]) {
+  const cdem_fdem_store *s = fdem->store;
+  for (int c = 0; c < 3; c++) {
+    force[c] = s->wall_force[3 * wall + c];
+    center[c] = s->wall[wall].center[c];
+    velocity[c] = s->wall[wall].velocity[c];
+  }
+}
