@@ -177,6 +177,18 @@ typedef struct {
   cdem_case_texts of; /* pictures; none: all */
 } cdem_case_picture_window;
 
+/* grains: deformable: */
+typedef struct {
+  int shape;          /* index into fdem/shapes.def */
+  int64_t refinement; /* of the shape */
+  char *file;         /* mesh of a grain, as written; relative to the case file */
+  int64_t modes;      /* elastic modes kept; 0: all */
+  int integration;    /* implicit explicit */
+  double damping_ratio;
+  bool aligned; /* all grains stand as their mesh does; else turned at random */
+  int64_t seed; /* of these turns */
+} cdem_case_deformable;
+
 /* grains: */
 enum { CDEM_CASE_PICTURE_TIMES = 8 };
 typedef struct {
@@ -184,6 +196,7 @@ typedef struct {
   int law, rolling, twisting; /* index into laws.def, resistances.def */
   char *file;                 /* as written; relative to the case file */
   cdem_case_packing packing;
+  cdem_case_deformable deformable;
   char *material; /* of grains whose file names none; NULL: the first one */
   CDEM_CASE_LIST(cdem_case_grain_material) materials;
   double most_overlap;      /* of grains at the start, in radii of the smaller one */
@@ -386,6 +399,8 @@ void cdem_case_release(cdem_case *cases);
 bool cdem_case_given(const cdem_case *cases, const char *key);
 /* A case is of grains, of a body, or of both. */
 bool cdem_case_has_grains(const cdem_case *cases);
+/* ... that deform? */
+bool cdem_case_has_deformable(const cdem_case *cases);
 bool cdem_case_is_coupled(const cdem_case *cases);
 
 /* Is direction 0, 1, 2 among the texts x, y, z? */

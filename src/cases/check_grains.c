@@ -233,6 +233,41 @@ static cdem_status check_pictures(const cdem_case *cases, cdem_fault *fault) {
   return CDEM_OK;
 }
 
+/* ---- grains that deform ---- */
+
+enum {
+#define X(name) SHAPE_##name,
+#include "fdem/shapes.def"
+#undef X
+};
+static const char *const law_names[] = {
+#define X(name) #name,
+#include "dem/laws.def"
+#undef X
+};
+
+static cdem_status check_deformable(const cdem_case *cases, cdem_fault *fault) {
+  static const char *const rigid[][2] = {
+      {"bonds", "their contacts only push"},
+      {"cell", "they do not know periodic cells"},
+      {"local_damping", "damp them by 'mass_damping' or 'grains.deformable.damping_ratio'"}};
+  const cdem_case_grains *g = &cases->values.grains;
+  bool mesh = g->deformable.shape == SHAPE_mesh;
+  for (size_t i = 0; i < sizeof rigid / sizeof *rigid; i++)
+    CDEM_TRY(refuse(cases, rigid[i][0], "deformable grains", rigid[i][1], fault));
+  if (g->dimension != 3)
+    return cdem_case_fail(cases, "grains.deformable", CDEM_INPUT, fault,
+                          "deformable grains are solids: 'dimension' must be 3");
+  if (strcmp(law_names[g->law], "penalty") != 0)
+    return cdem_case_fail(cases, "grains.law", CDEM_INPUT, fault,
+                          "deformable grains touch by nodes: their law must be 'penalty', not '%s'",
+                          law_names[g->law]);
+  if (mesh != (g->deformable.file != NULL))
+    return cdem_case_fail(cases, "grains.deformable", CDEM_INPUT, fault,
+                          "'shape: mesh' and 'file' belong together: give both or none");
+  return CDEM_OK;
+}
+
 cdem_status cdem_case_check_grains(const cdem_case *cases, cdem_fault *fault) {
   const cdem_case_values *v = &cases->values;
   bool file = v->grains.file != NULL, packing = cdem_case_given(cases, "grains.packing");
@@ -255,6 +290,8 @@ cdem_status cdem_case_check_grains(const cdem_case *cases, cdem_fault *fault) {
                           "discs move in the plane z = 0: gravity along z is %g m/s2 and must be "
                           "left out",
                           v->gravity[2]);
+  if (cdem_case_has_deformable(cases))
+    CDEM_TRY(check_deformable(cases, fault));
   if (v->contacts.count == 0)
     return cdem_case_fail(cases, cdem_case_given(cases, "contacts") ? "contacts" : "grains",
                           CDEM_INPUT, fault,
