@@ -31,7 +31,7 @@ static inline cdem_contact_input typical(const cdem_law *law, const cdem_resista
   static const struct {
     cdem_law_key key;
     double value;
-  } table[] = {{CDEM_LAW_normal_stiffness, 1e6},      {CDEM_LAW_penalty_stiffness, 1.8e11},
+  } table[] = {{CDEM_LAW_normal_stiffness, 1e6},      {CDEM_LAW_penalty_stiffness, 1e12},
                {CDEM_LAW_shear_stiffness, 3e5},       {CDEM_LAW_friction, 0.4},
                {CDEM_LAW_restitution, 0.7},           {CDEM_LAW_normal_dashpot, 10.0},
                {CDEM_LAW_shear_dashpot, 5.0},         {CDEM_LAW_rolling_stiffness, 5.0},
