@@ -5,7 +5,7 @@
 /* ---- names of variants ---- */
 
 /* Names may hold a hyphen, which a word of C cannot: a new line of laws.def wants its name here. */
-static const char *const laws[] = {"linear", "hertz", "mindlin", "li-chu", NULL};
+static const char *const laws[] = {"linear", "hertz", "mindlin", "li-chu", "penalty", NULL};
 enum {
   LAWS = 0
 #define X(name) +1
@@ -239,6 +239,7 @@ const cdem_case_section cdem_section_grains =
 /* How a number of this dimension is written. */
 #define WRITTEN(length, time, mass)                                                                \
   ((mass) == 0     ? (length) == 0 ? "0.3" : "0.1 mm"                                              \
+   : (length) < 0  ? "1.8e11 N/m3"                                                                 \
    : (length) == 2 ? (time) == -2 ? "0.1 N m" : "0.01 N m s"                                       \
    : (time) == -2  ? "1e6 N/m"                                                                     \
                    : "10 N s/m")
