@@ -96,6 +96,9 @@ void cdem_fdem_release(cdem_fdem *fdem);
 cdem_status cdem_fdem_steps(cdem_fdem *fdem, int64_t steps, cdem_fault *fault);
 /* Largest stable step for the contacts there are now. */
 double cdem_fdem_limit(const cdem_fdem *fdem);
+/* Lets an automatic step follow the contacts; to be called now and then, at steps that the model
+ * alone decides. */
+void cdem_fdem_follow(cdem_fdem *fdem);
 
 void cdem_fdem_energies_now(const cdem_fdem *fdem, cdem_fdem_energies *energies);
 /* Linear, kg m/s, and angular about the origin, at t_n - dt/2. */
@@ -109,8 +112,17 @@ typedef struct {
   int32_t *contacts;             /* [grains] grains and walls touched now */
 } cdem_fdem_view;
 void cdem_fdem_look(const cdem_fdem *fdem, const cdem_fdem_view *view);
+double cdem_fdem_mass(const cdem_fdem *fdem, int64_t grain);
+const cdem_template *cdem_fdem_shape(const cdem_fdem *fdem, int64_t grain);
 /* Where the nodes of a grain are: [nodes of its template][3], m. */
 void cdem_fdem_places(const cdem_fdem *fdem, int64_t grain, double *place);
+/* Surface nodes of a grain, borrowed: where they are, m, the contact force on each, N, and where
+ * they are in the frame of the grain, from its centre, m; [surface nodes][3]. */
+typedef struct {
+  int32_t nodes;
+  const double *now, *force, *place;
+} cdem_fdem_nodes;
+cdem_fdem_nodes cdem_fdem_nodes_of(const cdem_fdem *fdem, int64_t grain);
 
 /* Nodes that touch now: force on the node, N, from partner (grain; wall: -1 - its index). */
 typedef struct {

@@ -66,7 +66,7 @@ cdem_status cdem_fdem_first_step(cdem_fdem *fdem, cdem_fault *fault) {
 }
 
 /* An automatic step follows the contacts, down soon and up late. */
-void cdem_fdem_relook(cdem_fdem *fdem) {
+void cdem_fdem_follow(cdem_fdem *fdem) {
   cdem_fdem_store *s = fdem->store;
   if (s->options.step > 0.0)
     return;

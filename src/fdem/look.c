@@ -29,6 +29,23 @@ void cdem_fdem_look(const cdem_fdem *fdem, const cdem_fdem_view *view) {
   }
 }
 
+double cdem_fdem_mass(const cdem_fdem *fdem, int64_t g) {
+  return fdem->store->mass[g];
+}
+
+const cdem_template *cdem_fdem_shape(const cdem_fdem *fdem, int64_t g) {
+  return cdem_fdem_template(fdem->store, g);
+}
+
+cdem_fdem_nodes cdem_fdem_nodes_of(const cdem_fdem *fdem, int64_t g) {
+  const cdem_fdem_store *s = fdem->store;
+  int64_t first = 3 * s->first[g];
+  return (cdem_fdem_nodes){.nodes = (int32_t)(s->first[g + 1] - s->first[g]),
+                           .now = s->now + first,
+                           .force = s->force + first,
+                           .place = s->place + first};
+}
+
 void cdem_fdem_places(const cdem_fdem *fdem, int64_t g, double *place) {
   const cdem_fdem_store *s = fdem->store;
   const cdem_template *t = cdem_fdem_template(s, g);

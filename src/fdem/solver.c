@@ -168,8 +168,6 @@ static bool move(cdem_fdem *fdem) {
 }
 
 static cdem_status step_once(cdem_fdem *fdem, cdem_fault *fault) {
-  if (fdem->steps % CDEM_FDEM_LOOK_EVERY == 0 && fdem->steps > 0)
-    cdem_fdem_relook(fdem);
   if (!move(fdem))
     return report_bad(fdem, fault);
   return cdem_fdem_forces(fdem->store, fdem->step, fault);

@@ -93,9 +93,6 @@ cdem_status cdem_fdem_forces(cdem_fdem_store *s, double step, cdem_fault *fault)
 
 /* limit.c */
 cdem_status cdem_fdem_first_step(cdem_fdem *fdem, cdem_fault *fault);
-/* Looks at the step at numbers of steps that are multiples of this. */
-enum { CDEM_FDEM_LOOK_EVERY = 256 };
-void cdem_fdem_relook(cdem_fdem *fdem);
 
 /* book.c */
 void cdem_fdem_book_start(cdem_fdem *fdem);

@@ -67,6 +67,7 @@ typedef struct {
                           cdem_fault *fault);
 } cdem_run_engine;
 
-extern const cdem_run_engine cdem_run_engine_body, cdem_run_engine_grains, cdem_run_engine_coupled;
+extern const cdem_run_engine cdem_run_engine_body, cdem_run_engine_grains, cdem_run_engine_coupled,
+    cdem_run_engine_deformable;
 
 #endif

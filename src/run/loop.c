@@ -215,8 +215,8 @@ static cdem_status run_relaxation(cdem_run_output *output, cdem_fault *fault) {
                         "the forces are not balanced after %lld steps: ratio %.3g, wanted %.3g; "
                         "allow more steps or a larger tolerance, or look for %s",
                         (long long)now.steps, ratio, values->tolerance,
-                        setup->engine == &cdem_run_engine_grains ? "grains that nothing holds"
-                                                                 : "a body that no support holds");
+                        cdem_case_has_grains(&setup->cases) ? "grains that nothing holds"
+                                                            : "a body that no support holds");
 }
 
 cdem_status cdem_run_loop(cdem_run_output *output, cdem_fault *fault) {

@@ -37,7 +37,7 @@ static uint64_t sum_text(const char *text) {
 cdem_status cdem_run_check_step(const cdem_run_setup *setup, double limit, cdem_fault *fault) {
   enum { MOST_DIGITS = 15 }; /* steps are counted in 64 bits, and nobody waits for them */
   double step = cdem_run_values(setup)->step, end = cdem_run_values(setup)->end;
-  const char *stiff = setup->engine == &cdem_run_engine_grains ? "grains" : "materials";
+  const char *stiff = cdem_case_has_grains(&setup->cases) ? "grains" : "materials";
   if (!(limit > 0.0) || !isfinite(limit))
     return cdem_case_fail(&setup->cases, stiff, CDEM_INPUT, fault,
                           "there is no stable time step (the limit comes out as %g s): a modulus, "
@@ -82,13 +82,19 @@ static cdem_status read_case(const cdem_run_options *options, cdem_run_setup *se
   return CDEM_OK;
 }
 
+static const cdem_run_engine *engine_of(const cdem_case *cases) {
+  if (cdem_case_is_coupled(cases))
+    return &cdem_run_engine_coupled;
+  if (!cdem_case_has_grains(cases))
+    return &cdem_run_engine_body;
+  return cdem_case_has_deformable(cases) ? &cdem_run_engine_deformable : &cdem_run_engine_grains;
+}
+
 static cdem_status build(const cdem_run_options *options, const cdem_state *checkpoint,
                          cdem_run_setup *setup, cdem_fault *fault) {
   setup->options = options;
   CDEM_TRY(read_case(options, setup, fault));
-  setup->engine = cdem_case_is_coupled(&setup->cases)   ? &cdem_run_engine_coupled
-                  : cdem_case_has_grains(&setup->cases) ? &cdem_run_engine_grains
-                                                        : &cdem_run_engine_body;
+  setup->engine = engine_of(&setup->cases);
   return setup->engine->build(setup, checkpoint, fault);
 }
 

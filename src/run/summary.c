@@ -150,7 +150,7 @@ static void put_program(cdem_json *json, const cdem_run_output *output) {
   cdem_json_string(json, "case", options->path);
   cdem_json_open(json, "checksums", '{');
   put_sum(json, "case", setup->case_sum);
-  put_sum(json, setup->engine == &cdem_run_engine_grains ? "grains" : "mesh", setup->input_sum);
+  put_sum(json, cdem_case_has_grains(&setup->cases) ? "grains" : "mesh", setup->input_sum);
   cdem_json_close(json, '}');
   cdem_json_integer(json, "threads", setup->threads);
 }

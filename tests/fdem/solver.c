@@ -1,0 +1,238 @@
+/* Room fdem: grains that fly, spin, bounce, roll and touch: their balances. */
+#include "fdem/solver_support.h"
+
+static cdem_fault fault;
+
+/* A box that is thrown spinning about no axis of its own: momenta to rounding, energy to the second
+ * order of the step (Dzhanibekov's motion keeps changing its spin). */
+static double spin_error(double step) {
+  cdem_mesh box;
+  const cdem_mesh_grid_options grid = {
+      .shape = CDEM_SHAPE_HEX8, .count = {2, 2, 2}, .size = {3.0, 2.0, 1.0}};
+  check_ok(cdem_mesh_grid(&grid, &box, &fault));
+  scene s;
+  scene_of("mesh", 0, 1e9, 0.2, &box, &s);
+  int g = scene_add(&s, 1.0, 2.0, 3.0, 0.5, 7);
+  const double spin[3] = {1.0, 20.0, 2.0}, velocity[3] = {1.0, -2.0, 0.5};
+  memcpy(s.spin + 3 * g, spin, sizeof spin);
+  memcpy(s.velocity + 3 * g, velocity, sizeof velocity);
+  s.options.step = step;
+  cdem_fdem fdem;
+  check_ok(cdem_fdem_init(&s.options, &fdem, &fault));
+  double linear[2][3], angular[2][3], worst = 0.0;
+  cdem_fdem_energies e[2];
+  cdem_fdem_momentum(&fdem, linear[0], angular[0]);
+  cdem_fdem_energies_now(&fdem, &e[0]);
+  int steps = (int)lround(1.0 / step);
+  for (int n = 0; n < 100; n++) {
+    check_ok(cdem_fdem_steps(&fdem, steps / 100, &fault));
+    cdem_fdem_energies_now(&fdem, &e[1]);
+    worst = fmax(worst, fabs(kept(&e[1]) / kept(&e[0]) - 1.0));
+  }
+  cdem_fdem_momentum(&fdem, linear[1], angular[1]);
+  for (int c = 0; c < 3; c++) {
+    check_near(linear[1][c], linear[0][c], 1e-12, 0.0);
+    check_near(angular[1][c], angular[0][c], 0.0, 1e-11 * cdem_norm3(angular[0]));
+  }
+  cdem_fdem_release(&fdem);
+  cdem_mesh_release(&box);
+  scene_release(&s);
+  return worst;
+}
+
+static void test_spins(void **state) {
+  (void)state;
+  double coarse = spin_error(4e-5), fine = spin_error(2e-5);
+  check_below(coarse, 1e-4);
+  check_near(coarse / fine, 4.0, 0.2, 0.0);
+}
+
+/* A ball dropped on a floor: it comes back without damping, and the book closes by the square of
+ * the step, in both schemes. */
+static void bounce(cdem_fdem_integration integration, double safety, double *error, double *back) {
+  scene s;
+  scene_of("cubesphere", 2, 40e9, 0.2, NULL, &s);
+  scene_add(&s, 0.0, 0.0, 0.0502, 0.05, 3);
+  scene_floor(&s, 0.0, 0.0, 1.0);
+  s.velocity[2] = -2.0;
+  s.velocity[0] = 0.4;
+  s.law.friction = 0.3;
+  s.options.gravity[2] = -9.81;
+  s.options.integration = integration;
+  s.options.safety = safety;
+  cdem_fdem fdem;
+  cdem_fdem_energies e;
+  check_ok(cdem_fdem_init(&s.options, &fdem, &fault));
+  *error = 0.0;
+  while (fdem.time < 1e-3) {
+    check_ok(cdem_fdem_steps(&fdem, 5, &fault));
+    cdem_fdem_energies_now(&fdem, &e);
+    *error = fmax(*error, fabs(e.error) / e.exchange);
+  }
+  assert_true(e.normal == 0.0); /* it has left */
+  assert_true(e.friction > 0.0);
+  double velocity[3];
+  cdem_fdem_look(&fdem, &(cdem_fdem_view){.velocity = velocity});
+  *back = velocity[2];
+  cdem_fdem_release(&fdem);
+  scene_release(&s);
+}
+
+static void test_bounces(void **state) {
+  (void)state;
+  double error[2], back[2];
+  bounce(CDEM_FDEM_EXPLICIT, 0.4, &error[0], &back[0]);
+  bounce(CDEM_FDEM_EXPLICIT, 0.1, &error[1], &back[1]);
+  check_below(error[1], 1e-3);
+  assert_true(error[1] < 0.2 * error[0]);
+  check_below(back[1], 2.0);
+  assert_true(back[1] > 1.5);
+  bounce(CDEM_FDEM_IMPLICIT, 0.1, &error[0], &back[0]);
+  check_below(error[0], 5e-3);
+  check_near(back[0], back[1], 0.1, 0.0);
+}
+
+/* Down a slope without slipping: g sin(theta)/(1 + I/(m r^2)), on the mean: the mesh is a
+ * polyhedron and goes from node to node. */
+static void test_rolls(void **state) {
+  (void)state;
+  const double theta = 0.2, r = 0.05;
+  scene s;
+  scene_of("icosphere", 1, 40e9, 0.2, NULL, &s);
+  scene_add(&s, r * sin(theta), 0.0, r * cos(theta), r, 5);
+  scene_floor(&s, 0.0, sin(theta), cos(theta));
+  s.law = (cdem_fdem_contact_law){
+      .penalty = 1e9, .shear_ratio = 1.0, .friction = 0.6, .damping_ratio = 0.3};
+  s.options.gravity[2] = -9.81;
+  cdem_fdem fdem;
+  check_ok(cdem_fdem_init(&s.options, &fdem, &fault));
+  const double start = 0.1, end = 0.5;
+  double speed[2];
+  cdem_fdem_energies e;
+  for (int k = 0; k < 2; k++) {
+    double velocity[3], spin[3];
+    while (fdem.time < (k == 0 ? start : end))
+      check_ok(cdem_fdem_steps(&fdem, 20, &fault));
+    cdem_fdem_look(&fdem, &(cdem_fdem_view){.velocity = velocity, .spin = spin});
+    speed[k] = velocity[0] * cos(theta) - velocity[2] * sin(theta);
+    check_near(spin[1] * r, speed[k], 0.05, 0.0);
+  }
+  cdem_fdem_energies_now(&fdem, &e);
+  check_below(fabs(e.error), 2e-3 * e.exchange);
+  double ratio = s.shape.inertia[0] / 4.18879020478639098;
+  check_near((speed[1] - speed[0]) / (end - start), 9.81 * sin(theta) / (1.0 + ratio), 0.05, 0.0);
+  cdem_fdem_release(&fdem);
+  scene_release(&s);
+}
+
+/* A heap of balls that collide: momentum to rounding, book to the step, same bits of any number of
+ * threads, and of a solver restored on the way. */
+static void make_cloud(scene *s, int threads, bool reference, cdem_fdem *fdem) {
+  scene_of("cubesphere", 2, 40e9, 0.2, NULL, s);
+  cdem_random random = {11};
+  for (int i = 0; i < 48; i++) {
+    int g = scene_add(s, 0.045 * (i % 4), 0.045 * (i / 4 % 4), 0.045 * (i / 16),
+                      cdem_random_uniform(&random, 0.018, 0.022), (uint64_t)i + 1);
+    for (int c = 0; c < 3; c++) {
+      s->velocity[3 * g + c] = cdem_random_uniform(&random, -5.0, 5.0);
+      s->spin[3 * g + c] = cdem_random_uniform(&random, -50.0, 50.0);
+    }
+  }
+  s->law = (cdem_fdem_contact_law){
+      .penalty = 1e11, .shear_ratio = 0.8, .friction = 0.3, .damping_ratio = 0.1};
+  s->options.threads = threads;
+  s->options.reference = reference;
+  s->options.safety = 0.2;
+  check_ok(cdem_fdem_init(&s->options, fdem, &fault));
+}
+
+static void centres_of(const cdem_fdem *fdem, double *xyz) {
+  cdem_fdem_look(fdem, &(cdem_fdem_view){.xyz = xyz});
+}
+
+static void test_balances(void **state) {
+  (void)state;
+  scene s;
+  cdem_fdem fdem;
+  make_cloud(&s, 1, false, &fdem);
+  double linear[2][3], angular[2][3], size = 0.0, turn = 0.0;
+  cdem_fdem_energies e;
+  cdem_fdem_momentum(&fdem, linear[0], angular[0]);
+  for (int64_t g = 0; g < fdem.grains; g++) {
+    size += cdem_fdem_mass(&fdem, g) * 5.0;
+    turn += cdem_fdem_mass(&fdem, g) * 5.0 * 0.1;
+  }
+  check_ok(cdem_fdem_steps(&fdem, 2000, &fault));
+  cdem_fdem_momentum(&fdem, linear[1], angular[1]);
+  for (int c = 0; c < 3; c++) {
+    check_near(linear[1][c], linear[0][c], 0.0, 1e-12 * size);
+    check_near(angular[1][c], angular[0][c], 0.0, 1e-11 * turn);
+  }
+  cdem_fdem_energies_now(&fdem, &e);
+  assert_true(e.friction > 0.0 && e.damping > 0.0);
+  check_below(fabs(e.error), 1e-2 * e.exchange);
+  cdem_fdem_release(&fdem);
+  scene_release(&s);
+}
+
+static void test_same_bits(void **state) {
+  (void)state;
+  static double one[3 * SCENE_GRAINS], two[3 * SCENE_GRAINS], plain[3 * SCENE_GRAINS];
+  scene s[3];
+  cdem_fdem fdem[3];
+  for (int k = 0; k < 3; k++) {
+    make_cloud(&s[k], k + 1, k == 2, &fdem[k]);
+    check_ok(cdem_fdem_steps(&fdem[k], 600, &fault));
+  }
+  centres_of(&fdem[0], one);
+  centres_of(&fdem[1], two);
+  centres_of(&fdem[2], plain);
+  assert_memory_equal(one, two, sizeof one);
+  for (int64_t i = 0; i < 3 * fdem[0].grains; i++)
+    check_near(plain[i], one[i], 0.0, 1e-10); /* m; another order of sums, and collisions */
+  cdem_state saved = {0};
+  check_ok(cdem_fdem_save(&fdem[0], &saved, &fault));
+  check_ok(cdem_fdem_restore(&fdem[1], &saved, &fault));
+  check_ok(cdem_fdem_steps(&fdem[0], 400, &fault));
+  check_ok(cdem_fdem_steps(&fdem[1], 400, &fault));
+  centres_of(&fdem[0], one);
+  centres_of(&fdem[1], two);
+  assert_memory_equal(one, two, sizeof one);
+  cdem_state_release(&saved);
+  for (int k = 0; k < 3; k++) {
+    cdem_fdem_release(&fdem[k]);
+    scene_release(&s[k]);
+  }
+}
+
+static void test_errors(void **state) {
+  (void)state;
+  scene s;
+  cdem_fdem fdem;
+  scene_of("tetrasphere", 0, 1e9, 0.2, NULL, &s);
+  check_fails(cdem_fdem_init(&s.options, &fdem, &fault), CDEM_INPUT, "at least one is needed");
+  scene_add(&s, 0.0, 0.0, 0.0, -1.0, 0);
+  check_fails(cdem_fdem_init(&s.options, &fdem, &fault), CDEM_INPUT,
+              "grain 0 has the radius -1 m; it must be positive");
+  s.radius[0] = 1.0;
+  s.options.step = 1.0;
+  check_fails(cdem_fdem_init(&s.options, &fdem, &fault), CDEM_INPUT, "the step 1 s is unstable");
+  s.options.step = 0.0;
+  s.law.penalty = 0.0;
+  check_fails(cdem_fdem_init(&s.options, &fdem, &fault), CDEM_INPUT, "it must be positive");
+  s.law.penalty = 1e9;
+  s.velocity[0] = 1e9;
+  check_ok(cdem_fdem_init(&s.options, &fdem, &fault));
+  check_fails(cdem_fdem_steps(&fdem, 10, &fault), CDEM_NUMERIC,
+              "grain 0 moves by more than half its radius");
+  cdem_fdem_release(&fdem);
+  scene_release(&s);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_spins),     cmocka_unit_test(test_bounces),
+      cmocka_unit_test(test_rolls),     cmocka_unit_test(test_balances),
+      cmocka_unit_test(test_same_bits), cmocka_unit_test(test_errors)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
