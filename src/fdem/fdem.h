@@ -7,7 +7,8 @@
  * of the modes of its template. Contact acts on surface nodes (Wang et al. 2024, eqs 1-3): a node
  * that is inside another grain, or beyond a wall, by d carries
  *
- *     F_n = |k d - c d'|+,  F_s = min(|k_s u_s + c_s u_s'|, mu F_n),  k = p A,  c = 2 beta sqrt(m k)   (1)
+ *     F_n = |k d - c d'|+,  F_s = min(|k_s u_s + c_s u_s'|, mu F_n),  k = p A,  c = 2 beta sqrt(m
+ * k)   (1)
  *
  * with A its tributary area and m its mass; the triangle it is in takes the opposite force by its
  * barycentric weights. Nodes of both grains of a pair act.
@@ -37,12 +38,12 @@ typedef struct {
 } cdem_fdem_contact_law;
 
 typedef struct {
-  int64_t grains;              /* below 2^31 */
-  const double *xyz;           /* [grains][3] centres of mass, m */
-  const double *radius;        /* [grains] of the ball of the same volume, m */
-  const int32_t *shape;        /* [grains] template; NULL: all 0 */
-  const int32_t *material;     /* [grains]; NULL: all 0 */
-  const double *orientation;   /* [grains][4] unit quaternions (w x y z); NULL: as in the template */
+  int64_t grains;            /* below 2^31 */
+  const double *xyz;         /* [grains][3] centres of mass, m */
+  const double *radius;      /* [grains] of the ball of the same volume, m */
+  const int32_t *shape;      /* [grains] template; NULL: all 0 */
+  const int32_t *material;   /* [grains]; NULL: all 0 */
+  const double *orientation; /* [grains][4] unit quaternions (w x y z); NULL: as in the template */
   const double *velocity, *spin; /* [grains][3] m/s, rad/s; NULL: at rest */
 } cdem_fdem_grains;
 
@@ -51,9 +52,9 @@ typedef enum { CDEM_FDEM_IMPLICIT, CDEM_FDEM_EXPLICIT } cdem_fdem_integration;
 typedef struct {
   cdem_fdem_grains grains; /* copied */
   int shapes;
-  const cdem_template *shape; /* [shapes] */
-  int materials;              /* of grains and walls */
-  const double *density;      /* [materials] kg/m^3, of grains */
+  const cdem_template *shape;       /* [shapes] */
+  int materials;                    /* of grains and walls */
+  const double *density;            /* [materials] kg/m^3, of grains */
   const cdem_fdem_contact_law *law; /* [materials][materials], symmetric */
   int walls;
   const cdem_wall *wall; /* planes, plates, cylinders */
@@ -61,11 +62,11 @@ typedef struct {
   double mass_damping;  /* 1/s, on velocity, spin and modes */
   double damping_ratio; /* of every mode, beside what `implicit` takes: of critical */
   cdem_fdem_integration integration;
-  double step;          /* s; 0: automatic, from the contacts there are */
-  double safety;        /* part of the largest stable step of an automatic one; 0: 0.5 */
-  double skin;          /* of the list of neighbours, in mean radii; 0: 0.1 */
-  bool reference;       /* one grain at a time, plain loops instead of products: slow, for tests */
-  int threads;          /* 0: OpenMP's default */
+  double step;    /* s; 0: automatic, from the contacts there are */
+  double safety;  /* part of the largest stable step of an automatic one; 0: 0.5 */
+  double skin;    /* of the list of neighbours, in mean radii; 0: 0.1 */
+  bool reference; /* one grain at a time, plain loops instead of products: slow, for tests */
+  int threads;    /* 0: OpenMP's default */
 } cdem_fdem_options;
 
 /* J, since the start; signs as in cdem_dem_energies. */
@@ -90,8 +91,8 @@ typedef struct {
  * what walls point to. Forces are those of t = 0. */
 cdem_status cdem_fdem_init(const cdem_fdem_options *options, cdem_fdem *fdem, cdem_fault *fault);
 void cdem_fdem_release(cdem_fdem *fdem);
-/* CDEM_NUMERIC: a motion that is not finite, a grain that moves or a node that sinks in by more than
- * half a radius: names grain, time and place. */
+/* CDEM_NUMERIC: a motion that is not finite, a grain that moves or a node that sinks in by more
+ * than half a radius: names grain, time and place. */
 cdem_status cdem_fdem_steps(cdem_fdem *fdem, int64_t steps, cdem_fault *fault);
 /* Largest stable step for the contacts there are now. */
 double cdem_fdem_limit(const cdem_fdem *fdem);
