@@ -55,8 +55,8 @@ static void set_directions(cdem_wall *wall, int dim) {
   }
 }
 
-static cdem_status body_init(cdem_wall_body *body, int dim, const cdem_wall *wall,
-                             const cdem_grains *grains, cdem_fault *fault) {
+cdem_status cdem_wall_body_init(cdem_wall_body *body, int dim, const cdem_wall *wall,
+                                const cdem_grains *grains, cdem_fault *fault) {
   body->kind = cdem_wall_kind_of(wall->shape);
   body->wall = *wall;
   body->dim = dim;
@@ -69,6 +69,11 @@ static cdem_status body_init(cdem_wall_body *body, int dim, const cdem_wall *wal
   return CDEM_OK;
 }
 
+void cdem_wall_body_release(cdem_wall_body *body) {
+  if (body->kind != NULL && body->kind->release != NULL)
+    body->kind->release(body);
+}
+
 static cdem_status fill(cdem_dem_store *s, cdem_fault *fault) {
   const cdem_dem_options *o = &s->options;
   cdem_walls *walls = s->walls;
@@ -77,7 +82,7 @@ static cdem_status fill(cdem_dem_store *s, cdem_fault *fault) {
   CDEM_NEW(walls->fill, s->grains + 1, fault);
   walls->walls = o->walls;
   for (int w = 0; w < o->walls; w++) {
-    CDEM_TRY(body_init(walls->body + w, s->dim, o->wall + w, o->grains, fault));
+    CDEM_TRY(cdem_wall_body_init(walls->body + w, s->dim, o->wall + w, o->grains, fault));
     walls->meshes = walls->meshes || o->wall[w].shape == CDEM_WALL_MESH;
   }
   return CDEM_OK;
@@ -109,8 +114,7 @@ void cdem_walls_release(cdem_dem_store *s) {
   if (walls == NULL)
     return;
   for (int w = 0; w < walls->walls; w++)
-    if (walls->body[w].kind != NULL && walls->body[w].kind->release != NULL)
-      walls->body[w].kind->release(walls->body + w);
+    cdem_wall_body_release(walls->body + w);
   release_slots(&walls->slots);
   release_slots(&walls->old);
   free(walls->list.item);

@@ -180,8 +180,8 @@ static double servo_speed(const cdem_wall_body *body, double time, double step,
   return speed > most ? most : (speed < -most ? -most : speed);
 }
 
-static void advance(cdem_wall_body *body, double time, double step, const double *force,
-                    double stiffness) {
+void cdem_wall_body_advance(cdem_wall_body *body, double time, double step, const double *force,
+                            double stiffness) {
   double next = time + step, middle = time + 0.5 * step;
   if (body->servo) {
     static const double none[3] = {0.0, 0.0, 0.0};
@@ -207,17 +207,16 @@ void cdem_walls_advance(cdem_dem_store *s, double time, double step, const doubl
     return;
   for (int w = 0; w < walls->walls; w++) {
     cdem_wall_body *body = walls->body + w;
-    advance(body, time, step, force != NULL ? force + 6 * w : NULL,
-            stiffness != NULL ? stiffness[w] : 0.0);
+    cdem_wall_body_advance(body, time, step, force != NULL ? force + 6 * w : NULL,
+                           stiffness != NULL ? stiffness[w] : 0.0);
     *moved = fmax(*moved, body->kind->moved(body));
   }
   walls->time = time + step;
 }
 
-void cdem_walls_move(cdem_dem_store *s, int wall, const cdem_series velocity[3],
-                     const cdem_series spin[3]) {
-  cdem_wall_body *body = s->walls->body + wall;
-  body->since = s->walls->time;
+void cdem_wall_body_move(cdem_wall_body *body, double time, const cdem_series velocity[3],
+                         const cdem_series spin[3]) {
+  body->since = time;
   for (int k = 0; k < 4; k++)
     body->quaternion_since[k] = body->quaternion[k];
   for (int c = 0; c < 3; c++) {
@@ -228,6 +227,12 @@ void cdem_walls_move(cdem_dem_store *s, int wall, const cdem_series velocity[3],
       body->wall.spin[c] = spin[c];
   }
   set_turning(body);
+}
+
+void cdem_walls_move(cdem_dem_store *s, int wall, const cdem_series velocity[3],
+                     const cdem_series spin[3]) {
+  cdem_wall_body *body = s->walls->body + wall;
+  cdem_wall_body_move(body, s->walls->time, velocity, spin);
   /* A wall that begins to turn does so with lists that were made for one at rest. */
   cdem_wall_set_reach(s, body);
 }
