@@ -69,6 +69,11 @@ cdem_status cdem_wall_body_init(cdem_wall_body *body, int dim, const cdem_wall *
   return CDEM_OK;
 }
 
+void cdem_wall_body_release(cdem_wall_body *body) {
+  if (body->kind != NULL && body->kind->release != NULL)
+    body->kind->release(body);
+}
+
 static cdem_status fill(cdem_dem_store *s, cdem_fault *fault) {
   const cdem_dem_options *o = &s->options;
   cdem_walls *walls = s->walls;
@@ -109,8 +114,7 @@ void cdem_walls_release(cdem_dem_store *s) {
   if (walls == NULL)
     return;
   for (int w = 0; w < walls->walls; w++)
-    if (walls->body[w].kind != NULL && walls->body[w].kind->release != NULL)
-      walls->body[w].kind->release(walls->body + w);
+    cdem_wall_body_release(walls->body + w);
   release_slots(&walls->slots);
   release_slots(&walls->old);
   free(walls->list.item);

@@ -214,10 +214,9 @@ void cdem_walls_advance(cdem_dem_store *s, double time, double step, const doubl
   walls->time = time + step;
 }
 
-void cdem_walls_move(cdem_dem_store *s, int wall, const cdem_series velocity[3],
-                     const cdem_series spin[3]) {
-  cdem_wall_body *body = s->walls->body + wall;
-  body->since = s->walls->time;
+void cdem_wall_body_move(cdem_wall_body *body, double time, const cdem_series velocity[3],
+                         const cdem_series spin[3]) {
+  body->since = time;
   for (int k = 0; k < 4; k++)
     body->quaternion_since[k] = body->quaternion[k];
   for (int c = 0; c < 3; c++) {
@@ -228,6 +227,12 @@ void cdem_walls_move(cdem_dem_store *s, int wall, const cdem_series velocity[3],
       body->wall.spin[c] = spin[c];
   }
   set_turning(body);
+}
+
+void cdem_walls_move(cdem_dem_store *s, int wall, const cdem_series velocity[3],
+                     const cdem_series spin[3]) {
+  cdem_wall_body *body = s->walls->body + wall;
+  cdem_wall_body_move(body, s->walls->time, velocity, spin);
   /* A wall that begins to turn does so with lists that were made for one at rest. */
   cdem_wall_set_reach(s, body);
 }

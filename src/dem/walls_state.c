@@ -10,7 +10,7 @@
 #include <string.h>
 
 /* What a body has to keep, one number after the other. `pack`: into the record, else out of it. */
-enum { MOTION = CDEM_WALL_MOTION };
+enum { MOTION = CDEM_WALL_RECORD };
 typedef struct {
   double *record;
   bool pack;
@@ -24,7 +24,7 @@ static void walk(walker *w, double *value, int count) {
   w->record += count;
 }
 
-void cdem_wall_body_walk(cdem_wall_body *body, double *record, bool pack) {
+void cdem_wall_body_record(cdem_wall_body *body, double *record, bool pack) {
   walker w = {record, pack};
   walk(&w, body->center, 3);
   walk(&w, body->velocity, 3);
@@ -68,7 +68,7 @@ static cdem_status pack(const cdem_dem_store *s, saved *v, cdem_fault *fault) {
   CDEM_NEW(v->touch, slots->count, fault);
   CDEM_NEW(v->real, reals(s) * slots->count, fault);
   for (int w = 0; w < walls->walls; w++)
-    cdem_wall_body_walk(walls->body + w, v->motion + (size_t)MOTION * (size_t)w, true);
+    cdem_wall_body_record(walls->body + w, v->motion + (size_t)MOTION * (size_t)w, true);
   v->motion[(size_t)MOTION * (size_t)walls->walls] = walls->time;
   double *real = v->real;
   for (int64_t k = 0; k < slots->count; k++) {
@@ -145,7 +145,7 @@ static cdem_status unpack(cdem_dem_store *s, int64_t count, const saved *v, cdem
       memcpy(slots->last + 3 * (int64_t)slot, real + s->histories, 3 * sizeof *real);
   }
   for (int w = 0; w < walls->walls; w++)
-    cdem_wall_body_walk(walls->body + w, v->motion + (size_t)MOTION * (size_t)w, false);
+    cdem_wall_body_record(walls->body + w, v->motion + (size_t)MOTION * (size_t)w, false);
   walls->time = v->motion[(size_t)MOTION * (size_t)walls->walls];
   for (int w = 0; w < walls->walls; w++)
     cdem_wall_place(walls->body + w, walls->time);

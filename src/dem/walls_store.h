@@ -132,20 +132,29 @@ cdem_status cdem_walls_arrange(cdem_dem_store *s, const cdem_wall_list *list, cd
 /* For the lists there are; 0 for a wall that does not turn. */
 void cdem_wall_set_reach(const cdem_dem_store *s, cdem_wall_body *body);
 
-/* One wall by itself, for solvers that keep walls of their own: made from a checked wall (grains:
- * those a mesh is near, else NULL), moved to time + step with the force of the grains on it
- * (servos; NULL: none) and the stiffness of its contacts, and what it must remember as numbers. */
-cdem_status cdem_wall_body_init(cdem_wall_body *body, int dim, const cdem_wall *wall,
-                                const cdem_grains *grains, cdem_fault *fault);
-void cdem_wall_body_advance(cdem_wall_body *body, double time, double step, const double *force,
-                            double stiffness);
-enum { CDEM_WALL_MOTION = 48 };
-void cdem_wall_body_walk(cdem_wall_body *body, double *record, bool pack);
-
 /* walls_motion.c */
 void cdem_wall_motion_init(cdem_wall_body *body);
 void cdem_wall_place(cdem_wall_body *body, double time); /* turn, directions, here */
 void cdem_wall_keep_built(cdem_wall_body *body);
+
+/* ---- one wall alone, for solvers that hold walls themselves ----
+ *
+ * They touch it through body->kind and cdem_wall_fill. Zero-initialise the body; of its wall,
+ * checked by cdem_wall_check, series and name are borrowed. grains: near a mesh wall, else NULL. */
+cdem_status cdem_wall_body_init(cdem_wall_body *body, int dim, const cdem_wall *wall,
+                                const cdem_grains *grains, cdem_fault *fault);
+void cdem_wall_body_release(cdem_wall_body *body);
+/* From `time` to time + step. The servo asks for the force of the grains on the wall, force [3] N
+ * (NULL: none), and the sum of the contacts' stiffnesses, N/m. */
+void cdem_wall_body_advance(cdem_wall_body *body, double time, double step, const double *force,
+                            double stiffness);
+/* Other functions from `time`, where the body is now, on; NULL: as before. Borrowed. */
+void cdem_wall_body_move(cdem_wall_body *body, double time, const cdem_series velocity[3],
+                         const cdem_series spin[3]);
+/* What changes, into (pack) or out of record [CDEM_WALL_RECORD], of which some entries stay as they
+ * are; cdem_wall_place(body, time) after the latter. */
+enum { CDEM_WALL_RECORD = 48 };
+void cdem_wall_body_record(cdem_wall_body *body, double *record, bool pack);
 
 /* Material velocity of the wall where it is touched. */
 static inline void cdem_wall_fill(const cdem_wall_body *body, const double x[3], double radius,

@@ -77,3 +77,7 @@ void cdem_fdem_wall_now(const cdem_fdem *fdem, int wall, double force[3], double
     velocity[c] = s->wall[wall].velocity[c];
   }
 }
+
+void cdem_fdem_wall_move(cdem_fdem *fdem, int wall, const cdem_series velocity[3]) {
+  cdem_wall_body_move(fdem->store->wall + wall, fdem->time, velocity, NULL);
+}

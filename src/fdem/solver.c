@@ -115,6 +115,9 @@ void cdem_fdem_release(cdem_fdem *fdem) {
   cdem_fdem_store *s = fdem->store;
   if (s == NULL)
     return;
+  for (int w = 0; s->wall != NULL && w < s->options.walls; w++)
+    cdem_wall_body_release(s->wall + w);
+  cdem_fdem_contacts_destroy(&s->contacts);
   void *const array[] = {
       s->surface,  s->first,    s->mode,  s->shape,     s->material,   s->radius,    s->mass,
       s->inertia,  s->spins,    s->area,  s->node_mass, s->start,      s->center,    s->quaternion,
@@ -122,7 +125,6 @@ void cdem_fdem_release(cdem_fdem *fdem) {
       s->velocity, s->momentum, s->rate,  s->wall,      s->wall_force, s->wall_stiff};
   for (size_t i = 0; i < sizeof array / sizeof *array; i++)
     free(array[i]);
-  cdem_fdem_contacts_destroy(&s->contacts);
   release_scratch(s);
   free(s);
   memset(fdem, 0, sizeof *fdem);

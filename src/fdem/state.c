@@ -46,11 +46,11 @@ static void fields_of(const cdem_fdem_store *s, field out[FIELDS]) {
 static cdem_status save_walls(const cdem_fdem_store *s, cdem_state *state, cdem_fault *fault) {
   int walls = s->options.walls;
   double *motion = NULL;
-  CDEM_NEW(motion, (int64_t)CDEM_WALL_MOTION * walls, fault);
+  CDEM_NEW(motion, (int64_t)CDEM_WALL_RECORD * walls, fault);
   for (int w = 0; w < walls; w++)
-    cdem_wall_body_walk(s->wall + w, motion + (int64_t)CDEM_WALL_MOTION * w, true);
+    cdem_wall_body_record(s->wall + w, motion + (int64_t)CDEM_WALL_RECORD * w, true);
   cdem_status status = cdem_state_add_copy(state, "fdem/walls", CDEM_ARRAY_REAL,
-                                           (int64_t)CDEM_WALL_MOTION * walls, motion, fault);
+                                           (int64_t)CDEM_WALL_RECORD * walls, motion, fault);
   free(motion);
   CDEM_TRY(status);
   return cdem_state_add(state, "fdem/wall_stiff", CDEM_ARRAY_REAL, walls, s->wall_stiff, fault);
@@ -77,11 +77,11 @@ static cdem_status restore_walls(cdem_fdem *fdem, const cdem_state *state, cdem_
   int walls = s->options.walls;
   double *motion = NULL;
   CDEM_TRY(cdem_state_get(state, "fdem/wall_stiff", CDEM_ARRAY_REAL, walls, s->wall_stiff, fault));
-  CDEM_NEW(motion, (int64_t)CDEM_WALL_MOTION * walls, fault);
+  CDEM_NEW(motion, (int64_t)CDEM_WALL_RECORD * walls, fault);
   cdem_status status = cdem_state_get(state, "fdem/walls", CDEM_ARRAY_REAL,
-                                      (int64_t)CDEM_WALL_MOTION * walls, motion, fault);
+                                      (int64_t)CDEM_WALL_RECORD * walls, motion, fault);
   for (int w = 0; w < walls && status == CDEM_OK; w++) {
-    cdem_wall_body_walk(s->wall + w, motion + (int64_t)CDEM_WALL_MOTION * w, false);
+    cdem_wall_body_record(s->wall + w, motion + (int64_t)CDEM_WALL_RECORD * w, false);
     cdem_wall_place(s->wall + w, fdem->time);
   }
   free(motion);

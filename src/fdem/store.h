@@ -58,6 +58,11 @@ void cdem_fdem_contacts_destroy(cdem_fdem_contacts **contacts);
 cdem_status cdem_fdem_contacts_forces(cdem_fdem_contacts *contacts, const cdem_contact_view *view,
                                       double *force, double *wall_force, double *wall_stiff,
                                       double *stiff, cdem_contact_book *book, cdem_fault *fault);
+/* The forces, walls' sums and stiffnesses of the last evaluation once more, to the same bits: what
+ * a restored solver asks for. */
+void cdem_fdem_contacts_gather(const cdem_fdem_contacts *contacts, const cdem_contact_view *view,
+                               double *force, double *wall_force, double *wall_stiff,
+                               double *stiff);
 /* Nodes that touch, in the order of grains and nodes. */
 cdem_status cdem_fdem_contacts_list(const cdem_fdem_contacts *contacts,
                                     const cdem_contact_view *view, int64_t *touches,

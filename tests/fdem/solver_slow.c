@@ -17,6 +17,7 @@ static double spin_error(double step) {
   memcpy(s.spin + 3 * g, spin, sizeof spin);
   memcpy(s.velocity + 3 * g, velocity, sizeof velocity);
   s.options.step = step;
+  s.law.penalty = 1e6;
   cdem_fdem fdem;
   check_ok(cdem_fdem_init(&s.options, &fdem, &fault));
   double linear[2][3], angular[2][3], worst = 0.0;
@@ -52,7 +53,7 @@ static void test_spins(void **state) {
 static void bounce(cdem_fdem_integration integration, double safety, double *error, double *back) {
   scene s;
   scene_of("cubesphere", 2, 40e9, 0.2, NULL, &s);
-  scene_add(&s, 0.0, 0.0, 0.0502, 0.05, 3);
+  scene_add(&s, 0.0, 0.0, 0.056, 0.05, 3); /* corners stand out */
   scene_floor(&s, 0.0, 0.0, 1.0);
   s.velocity[2] = -2.0;
   s.velocity[0] = 0.4;
@@ -64,7 +65,7 @@ static void bounce(cdem_fdem_integration integration, double safety, double *err
   cdem_fdem_energies e;
   check_ok(cdem_fdem_init(&s.options, &fdem, &fault));
   *error = 0.0;
-  while (fdem.time < 1e-3) {
+  while (fdem.time < 2e-3) {
     check_ok(cdem_fdem_steps(&fdem, 5, &fault));
     cdem_fdem_energies_now(&fdem, &e);
     *error = fmax(*error, fabs(e.error) / e.exchange);
@@ -83,44 +84,47 @@ static void test_bounces(void **state) {
   double error[2], back[2];
   bounce(CDEM_FDEM_EXPLICIT, 0.4, &error[0], &back[0]);
   bounce(CDEM_FDEM_EXPLICIT, 0.1, &error[1], &back[1]);
-  check_below(error[1], 1e-3);
+  check_below(error[1], 1e-5);
   assert_true(error[1] < 0.2 * error[0]);
   check_below(back[1], 2.0);
-  assert_true(back[1] > 1.5);
+  check_near(back[1], 1.74, 0.01, 0.0); /* vibration and friction keep the rest */
   bounce(CDEM_FDEM_IMPLICIT, 0.1, &error[0], &back[0]);
-  check_below(error[0], 5e-3);
-  check_near(back[0], back[1], 0.1, 0.0);
+  check_below(error[0], 1e-4);
+  check_near(back[0], back[1], 0.01, 0.0);
 }
 
-/* Down a slope without slipping: g sin(theta)/(1 + I/(m r^2)), on the mean: the mesh is a
- * polyhedron and goes from node to node. */
+/* Down a slope: g sin(theta)/(1 + I/(m r^2)) and no slip, on the mean: the mesh is a polyhedron and
+ * its nodes come and go. It starts as deep in the slope as its weight sinks, p pi r d^2 = m g cos.
+ */
 static void test_rolls(void **state) {
   (void)state;
-  const double theta = 0.2, r = 0.05;
+  const double theta = 0.2, r = 0.05, penalty = 1e7, pi = 3.14159265358979323846;
   scene s;
-  scene_of("icosphere", 1, 40e9, 0.2, NULL, &s);
-  scene_add(&s, r * sin(theta), 0.0, r * cos(theta), r, 5);
+  scene_of("cubesphere", 4, 40e9, 0.2, NULL, &s);
+  const double mass = s.density * 4.0 / 3.0 * pi * r * r * r;
+  const double deep = sqrt(mass * 9.81 * cos(theta) / (penalty * pi * r)), h = r - deep;
+  scene_add(&s, h * sin(theta), 0.0, h * cos(theta), r, 5);
   scene_floor(&s, 0.0, sin(theta), cos(theta));
   s.law = (cdem_fdem_contact_law){
-      .penalty = 1e9, .shear_ratio = 1.0, .friction = 0.6, .damping_ratio = 0.3};
+      .penalty = penalty, .shear_ratio = 1.0, .friction = 0.6, .damping_ratio = 0.05};
   s.options.gravity[2] = -9.81;
+  s.options.safety = 0.1;
   cdem_fdem fdem;
   check_ok(cdem_fdem_init(&s.options, &fdem, &fault));
-  const double start = 0.1, end = 0.5;
-  double speed[2];
+  const double start = 0.1, end = 0.6;
+  double speed[2], spin[3], velocity[3];
   cdem_fdem_energies e;
   for (int k = 0; k < 2; k++) {
-    double velocity[3], spin[3];
     while (fdem.time < (k == 0 ? start : end))
-      check_ok(cdem_fdem_steps(&fdem, 20, &fault));
+      check_ok(cdem_fdem_steps(&fdem, 1, &fault));
     cdem_fdem_look(&fdem, &(cdem_fdem_view){.velocity = velocity, .spin = spin});
     speed[k] = velocity[0] * cos(theta) - velocity[2] * sin(theta);
-    check_near(spin[1] * r, speed[k], 0.05, 0.0);
   }
   cdem_fdem_energies_now(&fdem, &e);
-  check_below(fabs(e.error), 2e-3 * e.exchange);
-  double ratio = s.shape.inertia[0] / 4.18879020478639098;
-  check_near((speed[1] - speed[0]) / (end - start), 9.81 * sin(theta) / (1.0 + ratio), 0.05, 0.0);
+  check_below(fabs(e.error), 1e-3 * e.exchange);
+  double ratio = s.shape.inertia[0] / (4.0 / 3.0 * pi);
+  check_near((speed[1] - speed[0]) / (end - start), 9.81 * sin(theta) / (1.0 + ratio), 0.03, 0.0);
+  check_near(spin[1] * r, speed[1], 0.05, 0.0);
   cdem_fdem_release(&fdem);
   scene_release(&s);
 }
