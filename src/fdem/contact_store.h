@@ -70,7 +70,9 @@ typedef struct {
 typedef struct {
   cdem_near_grain *near; /* [capacity] grains whose ball meets that of the grain */
   int32_t *wall;         /* [walls] walls it may reach */
-  int64_t capacity;
+  int64_t capacity, nodes;
+  double *x;     /* [3][nodes] of the grain: all x, all y, all z */
+  uint8_t *mark; /* [nodes] may be in some grain that is near */
 } cdem_contact_work;
 
 struct cdem_fdem_contacts {

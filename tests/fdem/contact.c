@@ -424,6 +424,61 @@ static void walls_do_work(void **state) {
   model_release(&m);
 }
 
+/* A floor that is taken away takes with it what its springs hold. */
+static void a_wall_that_goes_takes_its_springs(void **state) {
+  (void)state;
+  const cdem_skin *skins[1] = {skin_of};
+  model m;
+  model_make(&m, 1, skins, 0.02, law);
+  m.center[2] = 0.0099;
+  model_wall(&m,
+             &(cdem_wall){
+                 .name = "gate", .shape = CDEM_WALL_PLANE, .normal = {0, 0, 1.0}, .stop = 1.5e-5});
+  model_start(&m, 0.0, 1);
+  model_forces(&m, 0.0);
+  m.velocity[0] = 0.1;
+  drift(&m, 1e-5);
+  model_forces(&m, 1e-5);
+  double held = m.book.normal + m.book.shear;
+  assert_true(m.book.normal > 0.0 && m.book.shear > 0.0 && m.sum.walls == 0.0);
+  drift(&m, 1e-5);
+  model_forces(&m, 1e-5);
+  assert_true(m.book.normal == 0.0 && m.book.shear == 0.0 && m.wall_force[0][2] == 0.0);
+  check_near(m.sum.walls, -held, 1e-13, 0.0);
+  model_release(&m);
+}
+
+/* A node in a corner of two walls is pushed by the one it is deeper in. */
+static void the_deeper_of_two_walls_acts(void **state) {
+  (void)state;
+  const cdem_skin *skins[1] = {skin_of};
+  cdem_fault fault = {0};
+  cdem_fdem_touch *touch;
+  int64_t touches, in_both = 0;
+  model m;
+  model_make(&m, 1, skins, 0.02, law);
+  m.center[0] = 0.0098;
+  m.center[2] = 0.0099;
+  model_wall(&m, &(cdem_wall){.name = "floor", .shape = CDEM_WALL_PLANE, .normal = {0, 0, 1.0}});
+  model_wall(&m, &(cdem_wall){.name = "side", .shape = CDEM_WALL_PLANE, .normal = {1.0, 0, 0}});
+  model_start(&m, 0.0, 1);
+  model_forces(&m, 0.0);
+  check_ok(cdem_fdem_contacts_list(m.contacts, &m.view, &touches, &touch, &fault));
+  assert_int_equal(touches, 15); /* 9 at the side, 6 more at the floor */
+  for (int64_t k = 0; k < touches; k++) {
+    bool side = touch[k].point[0] < 0.0;
+    in_both += side && touch[k].point[2] < 0.0;
+    assert_int_equal(touch[k].partner, side ? -2 : -1);
+    check_near(touch[k].depth, side ? 2e-4 : 1e-4, 1e-11, 0.0);
+  }
+  assert_int_equal(in_both, 3);
+  int32_t count;
+  cdem_fdem_contacts_count(m.contacts, &m.view, &count);
+  assert_int_equal(count, 2);
+  free(touch);
+  model_release(&m);
+}
+
 /* ---- what is refused ---- */
 
 static void what_cannot_be_is_refused(void **state) {
@@ -504,6 +559,8 @@ int main(void) {
       cmocka_unit_test(walls_push_nodes_back),
       cmocka_unit_test(tubes_push_along_their_radius),
       cmocka_unit_test(walls_do_work),
+      cmocka_unit_test(a_wall_that_goes_takes_its_springs),
+      cmocka_unit_test(the_deeper_of_two_walls_acts),
       cmocka_unit_test(what_cannot_be_is_refused),
       cmocka_unit_test(memory_that_ends_is_told),
   };
