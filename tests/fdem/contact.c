@@ -124,7 +124,9 @@ static void heap(model *m, int grains, cdem_random *random) {
   model_make_sized(m, grains, skins, scale, law);
   free(skins);
   free(scale);
-  int side = (int)ceil(cbrt(grains));
+  int side = 1;
+  while (side * side * side < grains)
+    side++;
   for (int g = 0; g < grains; g++) {
     double axis[3];
     for (int c = 0; c < 3; c++) {
