@@ -22,8 +22,15 @@ static cdem_status make(const cdem_contact_view *view, double skin, cdem_fdem_co
   CDEM_NEW(contacts->reach, view->grains, fault);
   CDEM_NEW(contacts->row, view->grains, fault);
   CDEM_NEW(contacts->work, contacts->threads, fault);
-  for (int t = 0; t < contacts->threads; t++)
+  int64_t most = 0;
+  for (int64_t g = 0; g < view->grains; g++)
+    most = view->first[g + 1] - view->first[g] > most ? view->first[g + 1] - view->first[g] : most;
+  for (int t = 0; t < contacts->threads; t++) {
+    contacts->work[t].nodes = most;
     CDEM_NEW(contacts->work[t].wall, view->walls, fault);
+    CDEM_NEW(contacts->work[t].x, 3 * most, fault);
+    CDEM_NEW(contacts->work[t].mark, most, fault);
+  }
   return CDEM_OK;
 }
 
@@ -59,6 +66,8 @@ void cdem_fdem_contacts_destroy(cdem_fdem_contacts **contacts) {
   for (int t = 0; c->work != NULL && t < c->threads; t++) {
     free(c->work[t].near);
     free(c->work[t].wall);
+    free(c->work[t].x);
+    free(c->work[t].mark);
   }
   cdem_contact_neighbours_release(&c->list);
   free(c->reach);

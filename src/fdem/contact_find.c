@@ -1,6 +1,7 @@
 /* The touches of one grain's nodes and their forces. Whatever a node touches is looked for among
  * the grains and walls that the ball about its own grain reaches. */
 #include "base/memory.h"
+#include "base/simd.h"
 #include "fdem/contact_store.h"
 
 #include <string.h>
@@ -42,6 +43,33 @@ static int walls_in_reach(const cdem_contact_view *view, const double *center, d
     if (cdem_wall_in_reach(view->wall + w, center, reach))
       wall[count++] = w;
   return count;
+}
+
+/* Most nodes are in no ball of a neighbour. This only sifts, with a little room for another
+ * rounding: what it lets pass is decided by touch_of_grains, so results do not depend on the
+ * processor. */
+CDEM_MULTIVERSION static void mark_nodes(const double *restrict x, const double *restrict y,
+                                         const double *restrict z, int32_t nodes,
+                                         const cdem_near_grain *near, uint8_t *restrict mark) {
+  const double a = near->center[0], b = near->center[1], c = near->center[2];
+  const double square = near->square * (1.0 + 0x1p-40);
+  for (int32_t n = 0; n < nodes; n++) {
+    double p = x[n] - a, q = y[n] - b, r = z[n] - c;
+    mark[n] |= p * p + q * q + r * r < square;
+  }
+}
+
+static void mark_all(const finder *f, const double *now, int32_t nodes) {
+  const cdem_contact_work *work = f->work;
+  double *x = work->x, *y = x + work->nodes, *z = y + work->nodes;
+  memset(work->mark, 0, (size_t)nodes);
+  for (int32_t n = 0; n < nodes; n++) {
+    x[n] = now[3 * n];
+    y[n] = now[3 * n + 1];
+    z[n] = now[3 * n + 2];
+  }
+  for (int64_t k = 0; k < f->near; k++)
+    mark_nodes(x, y, z, nodes, work->near + k, work->mark);
 }
 
 /* ---- one node ---- */
@@ -104,26 +132,48 @@ static cdem_touch_motion motion_of(const finder *f, int64_t n, int32_t material)
   return motion;
 }
 
+/* Takes off the way of the partner's material, by the triangle of the middle of the step: so a pair
+ * that turns as one body does not slip, but for the third power of the angle. */
+static void take_off_way(const finder *f, int64_t n, const cdem_node_touch *t,
+                         cdem_touch_motion *motion) {
+  const cdem_contact_view *view = f->view;
+  double middle[3][3], way[3][3], carried[3], x[3];
+  const double *corner[3] = {middle[0], middle[1], middle[2]};
+  cdem_touched_triangle triangle;
+  for (int k = 0; k < 3; k++) {
+    int64_t at = 3 * (view->first[t->partner] + t->corner[k]);
+    for (int c = 0; c < 3; c++) {
+      middle[k][c] = 0.5 * (view->now[at + c] + view->before[at + c]);
+      way[k][c] = view->now[at + c] - view->before[at + c];
+    }
+  }
+  for (int c = 0; c < 3; c++)
+    x[c] = 0.5 * (view->now[3 * n + c] + view->before[3 * n + c]);
+  cdem_touched_triangle_set(&triangle, corner, t->weight, x);
+  cdem_touched_triangle_carry(&triangle, t->weight, way, carried);
+  for (int c = 0; c < 3; c++)
+    motion->move[c] -= carried[c];
+}
+
 static void against_grain(finder *f, int64_t n, cdem_node_touch *t, const cdem_node_touch *old) {
   const cdem_contact_view *view = f->view;
-  int64_t o = t->partner;
   const double *corner[3];
-  double way[3][3], carried[3];
   cdem_touched_triangle triangle;
-  cdem_touch_motion motion = motion_of(f, n, view->material[o]);
-  for (int k = 0; k < 3; k++) {
-    int64_t at = 3 * (view->first[o] + t->corner[k]);
-    corner[k] = view->now + at;
-    for (int c = 0; c < 3; c++)
-      way[k][c] = view->now[at + c] - view->before[at + c];
-  }
-  cdem_touched_triangle_set(&triangle, corner, t->weight, view->now + 3 * n);
-  cdem_touched_triangle_carry(&triangle, t->weight, way, carried);
-  for (int c = 0; c < 3 && view->step > 0.0; c++)
-    motion.move[c] -= carried[c];
-  motion.turn = view->turn + 9 * o;
+  cdem_touch_motion motion = motion_of(f, n, view->material[t->partner]);
+  if (view->step > 0.0)
+    take_off_way(f, n, t, &motion);
+  motion.turn = view->turn + 9 * (int64_t)t->partner;
   cdem_touch_evaluate(t, old, &motion, &f->row->book);
+  for (int k = 0; k < 3; k++)
+    corner[k] = view->now + 3 * (view->first[t->partner] + t->corner[k]);
+  cdem_touched_triangle_set(&triangle, corner, t->weight, view->now + 3 * n);
   cdem_touched_triangle_take(&triangle, t->weight, t->force, t->reaction);
+}
+
+static void wall_way(const finder *f, int64_t n, int32_t partner, double way[3]) {
+  const cdem_contact_view *view = f->view;
+  cdem_wall_way(view->wall + (-1 - partner), view->now + 3 * n, view->before + 3 * n, view->step,
+                way);
 }
 
 static void against_wall(finder *f, int64_t n, cdem_node_touch *t, const cdem_node_touch *old) {
@@ -131,7 +181,7 @@ static void against_wall(finder *f, int64_t n, cdem_node_touch *t, const cdem_no
   const cdem_wall_body *body = view->wall + (-1 - t->partner);
   cdem_touch_motion motion = motion_of(f, n, body->wall.material);
   double way[3];
-  cdem_wall_way(body, view->now + 3 * n, view->step, way);
+  wall_way(f, n, t->partner, way);
   for (int c = 0; c < 3; c++)
     motion.move[c] -= way[c];
   motion.turn = body->turn;
@@ -139,9 +189,11 @@ static void against_wall(finder *f, int64_t n, cdem_node_touch *t, const cdem_no
   memset(t->weight, 0, sizeof t->weight);
   memset(t->reaction, 0, sizeof t->reaction);
   cdem_touch_evaluate(t, old, &motion, &f->row->book);
-  if (old != NULL && old->partner == t->partner)
-    f->row->book.walls += 0.5 * cdem_dot3(old->force, way);
   f->row->book.walls += 0.5 * cdem_dot3(t->force, way);
+  if (old != NULL) {
+    wall_way(f, n, old->partner, way);
+    f->row->book.walls += 0.5 * cdem_dot3(old->force, way);
+  }
 }
 
 /* ---- the row ---- */
@@ -151,7 +203,7 @@ static void settle(finder *f, int64_t n, const cdem_node_touch *old) {
   const cdem_wall_body *body = old->partner < 0 ? view->wall + (-1 - old->partner) : NULL;
   double way[3];
   if (body != NULL)
-    cdem_wall_way(body, view->now + 3 * n, view->step, way);
+    wall_way(f, n, old->partner, way);
   cdem_touch_settle(old, body != NULL ? way : NULL, body != NULL && !body->here, view->step,
                     &f->row->book);
 }
@@ -189,7 +241,7 @@ static cdem_status visit(finder *f, int32_t node, int32_t *seen) {
     if (row->count == row->capacity)
       CDEM_TRY(cdem_grow(&row->item, &row->capacity, row->count + 8, sizeof *row->item, NULL));
     cdem_node_touch *t = row->item + row->count;
-    if (walls ? touch_of_walls(f, x, t) : touch_of_grains(f, x, t))
+    if (walls ? touch_of_walls(f, x, t) : f->work->mark[node] && touch_of_grains(f, x, t))
       keep(f, n, node, old);
     else if (old != NULL)
       settle(f, n, old);
@@ -225,6 +277,8 @@ void cdem_contact_find(cdem_fdem_contacts *contacts, const cdem_contact_view *vi
   begin(row);
   if (f.near + f.walls + row->olds == 0)
     return;
+  mark_all(&f, view->now + 3 * view->first[grain], nodes);
   for (int32_t node = 0; node < nodes && row->status == CDEM_OK; node++)
-    row->status = visit(&f, node, &seen);
+    if (work->mark[node] || f.walls > 0 || (seen < row->olds && row->old[seen].node == node))
+      row->status = visit(&f, node, &seen);
 }

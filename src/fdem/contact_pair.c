@@ -17,7 +17,8 @@
  *     r_i = -w_i f + (g_i . N x C) N + (C . N) N x (x_i - m)/sum |x_j - m|^2 (3)
  *
  * of resultant -f and moment -x x f. As slip is measured with (1) as well, a pair that moves as one
- * rigid body does not slip, and the power of friction is that of the forces on the nodes. */
+ * rigid body does not slip, and the power of friction is that of the forces on the nodes. (Ways are
+ * of a step, with the triangle of its middle; forces with that of its end.) */
 #include "fdem/contact_store.h"
 
 void cdem_touched_triangle_set(cdem_touched_triangle *triangle, const double *corner[3],

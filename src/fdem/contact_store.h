@@ -70,7 +70,9 @@ typedef struct {
 typedef struct {
   cdem_near_grain *near; /* [capacity] grains whose ball meets that of the grain */
   int32_t *wall;         /* [walls] walls it may reach */
-  int64_t capacity;
+  int64_t capacity, nodes;
+  double *x;     /* [3][nodes] of the grain: all x, all y, all z */
+  uint8_t *mark; /* [nodes] may be in some grain that is near */
 } cdem_contact_work;
 
 struct cdem_fdem_contacts {
@@ -122,8 +124,9 @@ bool cdem_wall_passed(const cdem_wall_body *body, const double center[3], const 
                       double *depth, double normal[3]);
 /* May a node within `reach` of the centre be beyond it? */
 bool cdem_wall_in_reach(const cdem_wall_body *body, const double center[3], double reach);
-/* Way of its material at x in the step. */
-void cdem_wall_way(const cdem_wall_body *body, const double x[3], double step, double way[3]);
+/* Way in the step of its material where a node is now and was before. */
+void cdem_wall_way(const cdem_wall_body *body, const double x[3], const double before[3],
+                   double step, double way[3]);
 
 /* contact_find.c: fills the row of a grain. */
 void cdem_contact_find(cdem_fdem_contacts *contacts, const cdem_contact_view *view, int64_t grain,

@@ -71,10 +71,13 @@ bool cdem_wall_in_reach(const cdem_wall_body *body, const double center[3], doub
   return body->here && body->kind->nearest(body, center, reach, &near);
 }
 
-void cdem_wall_way(const cdem_wall_body *body, const double x[3], double step, double way[3]) {
+/* The velocity of the middle of the step, where node and wall were then: so a node that turns with
+ * its wall does not slip, but for the third power of the angle. */
+void cdem_wall_way(const cdem_wall_body *body, const double x[3], const double before[3],
+                   double step, double way[3]) {
   double arm[3], turning[3];
   for (int c = 0; c < 3; c++)
-    arm[c] = x[c] - body->center[c];
+    arm[c] = 0.5 * (x[c] + before[c]) - (body->center[c] - 0.5 * step * body->velocity[c]);
   cdem_cross3(body->spin, arm, turning);
   for (int c = 0; c < 3; c++)
     way[c] = step * (body->velocity[c] + turning[c]);

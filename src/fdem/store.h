@@ -70,7 +70,8 @@ cdem_status cdem_fdem_contacts_list(const cdem_fdem_contacts *contacts,
 /* Grains and walls each grain touches now: [grains]. */
 void cdem_fdem_contacts_count(const cdem_fdem_contacts *contacts, const cdem_contact_view *view,
                               int32_t *count);
-/* Histories: names under "contact/". */
+/* Histories: names under "contact/". Restored after the places of the view; forces are then those
+ * of cdem_fdem_contacts_gather. */
 cdem_status cdem_fdem_contacts_save(const cdem_fdem_contacts *contacts, cdem_state *state,
                                     cdem_fault *fault);
 cdem_status cdem_fdem_contacts_restore(cdem_fdem_contacts *contacts, const cdem_contact_view *view,

@@ -83,8 +83,9 @@ double cdem_near_side(const cdem_skin *surface, const double *place, int32_t t,
 static bool look_up(const cdem_skin *surface, double scale, const double y[3], int64_t *from,
                     int64_t *to) {
   int64_t at = 0;
+  double to_units = 1.0 / scale, to_cells = 1.0 / surface->cell;
   for (int c = 0; c < 3; c++) {
-    double cell = (y[c] / scale - surface->low[c]) / surface->cell;
+    double cell = (y[c] * to_units - surface->low[c]) * to_cells;
     if (!(cell >= 0.0 && cell < surface->cells))
       return false;
     at = at * surface->cells + (int64_t)cell;

@@ -50,8 +50,8 @@ static void set_now(model *m) {
 }
 
 /* Grains of these skins at the origin, not turned, at rest; density 1000. */
-static void model_make(model *m, int grains, const cdem_skin *const *skin, double scale,
-                       cdem_fdem_contact_law law) {
+static void model_make_sized(model *m, int grains, const cdem_skin *const *skin,
+                             const double *scales, cdem_fdem_contact_law law) {
   *m = (model){.grains = grains};
   m->first = calloc((size_t)grains + 1, sizeof *m->first);
   for (int g = 0; g < grains; g++)
@@ -67,6 +67,7 @@ static void model_make(model *m, int grains, const cdem_skin *const *skin, doubl
   m->material = calloc((size_t)grains, sizeof *m->material);
   m->skin = calloc((size_t)grains, sizeof *m->skin);
   for (int g = 0; g < grains; g++) {
+    double scale = scales[g];
     m->skin[g] = skin[g];
     m->scale[g] = scale;
     for (int c = 0; c < 3; c++)
@@ -87,6 +88,15 @@ static void model_make(model *m, int grains, const cdem_skin *const *skin, doubl
     }
   }
   m->law[0] = m->law[1] = m->law[2] = m->law[3] = law;
+}
+
+static inline void model_make(model *m, int grains, const cdem_skin *const *skin, double scale,
+                              cdem_fdem_contact_law law) {
+  double *scales = calloc((size_t)grains, sizeof *scales);
+  for (int g = 0; g < grains; g++)
+    scales[g] = scale;
+  model_make_sized(m, grains, skin, scales, law);
+  free(scales);
 }
 
 /* After places and walls are set. */
