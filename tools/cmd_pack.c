@@ -46,6 +46,8 @@ static cdem_status write_files(const pack_settings *s, pack_result *r, cdem_faul
 static cdem_status work(pack_settings *s, pack_result *r, cdem_fault *fault) {
   s->options.progress = s->compaction.progress = command_progress();
   const double *low = s->options.low, *high = s->options.high;
+  if (s->compact)
+    cdem_packing_make_room(&s->options, &s->compaction);
   CDEM_TRY(cdem_packing_make(s->packing, &s->options, &r->grains, fault));
   if (s->compact) {
     CDEM_TRY(cdem_packing_compact(&s->options, &s->compaction, &r->grains, &r->compacted, fault));

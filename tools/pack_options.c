@@ -24,6 +24,7 @@ enum {
   OPTION_SEED,
   OPTION_COMPACT,
   OPTION_PRESSURE,
+  OPTION_HEIGHT,
   OPTION_FRICTION,
   OPTION_INERTIAL,
   OPTION_MATERIAL,
@@ -56,8 +57,13 @@ const struct argp_option pack_option_table[] = {
     {"seed", OPTION_SEED, "N", 0, "of the random numbers (default 1)", 3},
     {NULL, 0, NULL, 0, "Compaction (loose):", 4},
     {"compact", OPTION_COMPACT, NULL, 0,
-     "press the grains to --pressure or --fraction; the box shrinks about its low corner", 4},
+     "press the grains to --pressure, --fraction or --height; the box shrinks about its low "
+     "corner, a "
+     "cylinder along its axis",
+     4},
     {"pressure", OPTION_PRESSURE, "P", 0, "of the compacted packing", 4},
+    {"height", OPTION_HEIGHT, "H", 0,
+     "of the compacted cylinder; --count grains are put loosely into a higher one", 4},
     {"friction", OPTION_FRICTION, "MU", 0, "of the grains meanwhile (default 0: densest)", 4},
     {"inertial", OPTION_INERTIAL, "I", 0, "inertial number, how slow (default 1e-3)", 4},
     {"threads", OPTION_THREADS, "N", 0, "threads of the compaction; results do not depend on it",
@@ -209,6 +215,9 @@ bool pack_parse(pack_settings *s, int key, const char *text) {
   case OPTION_PRESSURE:
     s->compaction.pressure = positive("--pressure", text, CDEM_PRESSURE);
     return true;
+  case OPTION_HEIGHT:
+    s->compaction.height = positive("--height", text, CDEM_LENGTH);
+    return true;
   case OPTION_FRICTION:
     s->compaction.friction = command_number("--friction", text);
     if (!(s->compaction.friction >= 0.0))
@@ -265,12 +274,14 @@ void pack_check(pack_settings *s) {
     s->options.sizes.kind = CDEM_SIZES_TABLE;
   check_sizes(s);
   if (!s->compact && (s->compaction.pressure > 0.0 || s->compaction.friction > 0.0 ||
-                      s->compaction.inertial > 0.0))
-    command_usage("--pressure, --friction and --inertial are for --compact");
+                      s->compaction.inertial > 0.0 || s->compaction.height > 0.0))
+    command_usage("--pressure, --height, --friction and --inertial are for --compact");
   if (s->compact && !s->packing->loose)
     command_usage("--compact presses a loose packing; '%s' is not", s->packing->name);
-  if (s->compact && (s->compaction.pressure > 0.0) == (s->options.fraction > 0.0))
-    command_usage("--compact needs one target: --pressure or --fraction");
+  if (s->compact &&
+      (s->compaction.pressure > 0.0) + (s->options.fraction > 0.0) + (s->compaction.height > 0.0) !=
+          1)
+    command_usage("--compact needs one target: --pressure, --fraction or --height");
   if (s->compact) {
     memcpy(s->compaction.periodic, s->options.periodic, sizeof s->options.periodic);
     s->compaction.fraction = s->options.fraction;

@@ -143,8 +143,8 @@ typedef struct {
 
 /* grains: packing: compact: */
 typedef struct {
-  double fraction, pressure; /* -, Pa; NaN: the other one decides */
-  double stiffness;          /* N/m; NaN: from the pressure */
+  double fraction, pressure, height; /* -, Pa, m; NaN: another one decides */
+  double stiffness;                  /* N/m; NaN: from the pressure */
   double friction, restitution;
 } cdem_case_compact;
 

@@ -181,10 +181,12 @@ static cdem_status check_packing(const cdem_case *cases, cdem_fault *fault) {
   CDEM_TRY(cdem_case_check_exclusive(cases, "grains.packing", "count", "fraction", fault));
   CDEM_TRY(
       cdem_case_check_exclusive(cases, "grains.packing.compact", "fraction", "pressure", fault));
+  CDEM_TRY(cdem_case_check_exclusive(cases, "grains.packing.compact", "fraction", "height", fault));
+  CDEM_TRY(cdem_case_check_exclusive(cases, "grains.packing.compact", "pressure", "height", fault));
   if (cdem_case_given(cases, "grains.packing.compact") && isnan(p->compact.fraction) &&
-      isnan(p->compact.pressure))
+      isnan(p->compact.pressure) && isnan(p->compact.height))
     return cdem_case_fail(cases, "grains.packing.compact", CDEM_INPUT, fault,
-                          "'compact' needs 'fraction' or 'pressure'");
+                          "'compact' needs 'fraction', 'pressure' or, in a cylinder, 'height'");
   return CDEM_OK;
 }
 

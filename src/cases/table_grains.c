@@ -5,7 +5,7 @@
 /* ---- names of variants ---- */
 
 /* Names may hold a hyphen, which a word of C cannot: a new line of laws.def wants its name here. */
-static const char *const laws[] = {"linear", "hertz", "mindlin", "li-chu", NULL};
+static const char *const laws[] = {"linear", "hertz", "mindlin", "li-chu", "penalty", NULL};
 enum {
   LAWS = 0
 #define X(name) +1
@@ -74,6 +74,12 @@ static const cdem_case_key compact[] = {
     {COMPACT(pressure), .kind = CDEM_KEY_NUMBER, .dimension = PRESSURE, .fallback = NAN, POSITIVE,
      DOMAIN, .otherwise = "by fraction", .help = "Pressure that is wanted, at rest.",
      .example = "10 kPa"},
+    {COMPACT(height), .kind = CDEM_KEY_NUMBER, .dimension = LENGTH, .fallback = NAN, POSITIVE,
+     DOMAIN, .otherwise = "by fraction",
+     .help =
+         "Height that is wanted of a cylinder; its 'count' grains are put loosely into a higher "
+         "one, and a plate comes down.",
+     .example = "600 mm"},
     {COMPACT(stiffness), .kind = CDEM_KEY_NUMBER, .dimension = STIFFNESS, .fallback = NAN, POSITIVE,
      GRAIN, .otherwise = "so high that overlaps stay below a thousandth of a radius",
      .help = "Normal stiffness of the contacts while grains are pressed together.",
@@ -85,7 +91,8 @@ static const cdem_case_key compact[] = {
 };
 static const cdem_case_section section_compact = SECTION(
     "compact", cdem_case_compact, compact,
-    .help = "Presses the packing together, by one of 'fraction' and 'pressure', before the run.");
+    .help = "Presses the packing together, by one of 'fraction', 'pressure' and 'height', before "
+            "the run.");
 
 #define PACKING(member) AT(cdem_case_packing, member)
 static const cdem_case_key packing[] = {
@@ -134,7 +141,8 @@ static const cdem_case_key packing[] = {
     {PACKING(seed), .kind = CDEM_KEY_INTEGER, .fallback = 1, NOT_NEGATIVE,
      .help = "Seed of the random numbers.", .example = "7"},
     {PACKING(compact), .kind = CDEM_KEY_SECTION, .section = &section_compact, .otherwise = "not",
-     .help = "Presses the packing together before the run; its box shrinks about its low corner.",
+     .help = "Presses the packing together before the run; its box shrinks about its low corner, a "
+             "cylinder along its axis.",
      .example = "{pressure: 1 kPa, friction: 0.1}"},
 };
 static const cdem_case_section section_packing =
@@ -236,6 +244,7 @@ const cdem_case_section cdem_section_grains =
 /* How a number of this dimension is written. */
 #define WRITTEN(length, time, mass)                                                                \
   ((mass) == 0     ? (length) == 0 ? "0.3" : "0.1 mm"                                              \
+   : (length) < 0  ? "1.8e11 N/m3"                                                                 \
    : (length) == 2 ? (time) == -2 ? "0.1 N m" : "0.01 N m s"                                       \
    : (time) == -2  ? "1e6 N/m"                                                                     \
                    : "10 N s/m")

@@ -14,7 +14,8 @@
  *            things that are there, discs or sides of the box (after Bagi 2005, Granular Matter 7,
  *            31-43). Any sizes; ends when no place is left
  * loose      2-D, 3-D. Random, without contacts, any sizes; in a box, a tube, or periodic.
- *            `compact` presses it together
+ *            `compact` presses it together. A count of a table of sizes has as many of each class
+ *            as its share says, to rounding
  *
  * Touching lattices touch to rounding: gaps and overlaps of neighbours are of the order of 1e-16
  * times the coordinates, of either sign. A law that acts on overlap > 0 sees some of these contacts
@@ -111,16 +112,22 @@ cdem_status cdem_packing_look(const cdem_grains *grains, const double low[3], co
  * The strain rate is bounded by the inertial number I = rate d sqrt(density/pressure), a
  * hundredfold (I at most 0.1) while there is hardly any pressure; energy is drained by inelastic
  * contacts and local damping. A fraction alone has no pressure: grains are then as stiff as sets
- * the clock, and the packing is refused as jammed where overlaps would exceed 1e-2 radii. */
+ * the clock, and the packing is refused as jammed where overlaps would exceed 1e-2 radii.
+ *
+ * A cylinder keeps its radius: the plate above comes down to a height or a fraction. How many
+ * grains there are is then given with it, so overlaps are what is left over: the packing is jammed
+ * where they would exceed 1e-1 radii in the mean. */
 typedef struct {
-  double fraction;  /* of solid in the box; 0: by pressure */
-  double pressure;  /* Pa; 0: by fraction */
+  double fraction;  /* of solid in the box; 0: by pressure or height */
+  double pressure;  /* Pa; 0: by fraction or height */
+  double height;    /* of a cylinder, m; 0: by fraction or pressure */
   double stiffness; /* normal, N/m in 3-D, 2-D (1 m thick); 0: from pressure so that overlaps stay
                        below 1e-3 radii */
   double friction, restitution; /* restitution 0: 0.5 */
   double inertial;              /* inertial number of the compaction, 0: 1e-3 */
   double density;               /* kg/m^3; 0: 2600 */
-  double tolerance; /* of pressure, and of unbalanced forces against the mean contact; 0: 1e-2 */
+  double tolerance; /* of pressure, and of unbalanced forces against the mean contact, 0: 1e-2; in a
+                       cylinder the mean of the grains' forces, else the largest */
   bool periodic[3];
   int threads;
   const cdem_progress *progress;
@@ -131,10 +138,14 @@ typedef struct {
   double coordination;                                 /* contacts a grain that has any */
   int64_t steps;
 } cdem_compacted;
+/* Makes the cylinder of the options so high that its grains, loosely put in, fill no more than 0.3
+ * of it; one that is higher stays. Does nothing unless a height and a count are given. */
+void cdem_packing_make_room(cdem_packing_options *options, const cdem_compaction *compaction);
 /* grains: in the box of the options, without overlaps, at rest (velocities are not looked at);
  * afterwards where they came to rest, velocities and spins zero. CDEM_INPUT: no target or two, a
- * fraction below that of the start; CDEM_NUMERIC: jammed before the fraction was reached (says at
- * which), or no rest after very many steps. Grains are then as they were. */
+ * fraction below that of the start, a height that is none of a cylinder or above that of the start;
+ * CDEM_NUMERIC: jammed before the fraction was reached (says at which), or no rest after very many
+ * steps. Grains are then as they were. */
 cdem_status cdem_packing_compact(const cdem_packing_options *options,
                                  const cdem_compaction *compaction, cdem_grains *grains,
                                  cdem_compacted *compacted, cdem_fault *fault);

@@ -31,6 +31,26 @@ typedef struct {
 
 /* ---- how many of which sizes ---- */
 
+/* As many of each class of a table as its share says, in random order: a few large grains more or
+ * less would change how much solid there is. */
+static cdem_status deal(loose *l, cdem_fault *fault) {
+  const cdem_packing_options *o = l->options;
+  const double nowhere[3] = {0};
+  for (int64_t i = 0; i < o->count; i++) {
+    double share = ((double)i + 0.5) / (double)o->count;
+    double radius = cdem_sizes_quantile(o->dim, &o->sizes, share);
+    CDEM_TRY(cdem_grains_add(l->grains, nowhere, radius, fault));
+  }
+  double *radius = l->grains->radius;
+  for (int64_t i = o->count - 1; i > 0; i--) {
+    int64_t j = (int64_t)(cdem_random_uniform(&l->random, 0.0, 1.0) * (double)(i + 1));
+    double other = radius[j];
+    radius[j] = radius[i];
+    radius[i] = other;
+  }
+  return CDEM_OK;
+}
+
 static cdem_status draw(loose *l, cdem_fault *fault) {
   const cdem_packing_options *o = l->options;
   const double nowhere[3] = {0};
@@ -39,6 +59,8 @@ static cdem_status draw(loose *l, cdem_fault *fault) {
   CDEM_REQUIRE(o->count > 0 || wanted / mean < INT32_MAX, fault, CDEM_INPUT,
                "a solid fraction of %g means about %.3g grains; at most %d can be had", o->fraction,
                wanted / mean, INT32_MAX - 1);
+  if (o->count > 0 && o->sizes.kind == CDEM_SIZES_TABLE)
+    return deal(l, fault);
   for (int64_t i = 0; o->count == 0 || i < o->count; i++) {
     double radius = cdem_sizes_draw(o->dim, &o->sizes, &l->random);
     double solid = cdem_grain_solid(o->dim, radius);

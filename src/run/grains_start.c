@@ -54,19 +54,26 @@ static void fill_periodic(const cdem_run_grains *g, const cdem_packing *packing,
   }
 }
 
-static cdem_status press(cdem_run_grains *g, const cdem_packing_options *options,
-                         cdem_fault *fault) {
+/* `compact`, as the packing wants it. */
+static cdem_compaction compaction_of(const cdem_run_grains *g,
+                                     const cdem_packing_options *options) {
   const cdem_case_compact *wanted = &cdem_run_grains_values(g)->grains.packing.compact;
   cdem_compaction compaction = {.fraction = isnan(wanted->fraction) ? 0.0 : wanted->fraction,
                                 .pressure = isnan(wanted->pressure) ? 0.0 : wanted->pressure,
+                                .height = isnan(wanted->height) ? 0.0 : wanted->height,
                                 .stiffness = isnan(wanted->stiffness) ? 0.0 : wanted->stiffness,
                                 .friction = wanted->friction,
                                 .restitution = wanted->restitution,
                                 .threads = cdem_run_grains_threads(g),
                                 .progress = options->progress};
-  cdem_compacted reached = {0};
   memcpy(compaction.periodic, options->periodic, sizeof compaction.periodic);
-  cdem_status status = cdem_packing_compact(options, &compaction, &g->grains, &reached, fault);
+  return compaction;
+}
+
+static cdem_status press(cdem_run_grains *g, const cdem_packing_options *options,
+                         const cdem_compaction *compaction, cdem_fault *fault) {
+  cdem_compacted reached = {0};
+  cdem_status status = cdem_packing_compact(options, compaction, &g->grains, &reached, fault);
   if (status != CDEM_OK)
     return status == CDEM_INPUT || status == CDEM_NUMERIC
                ? cdem_case_blame(&g->run->cases, "grains.packing.compact", fault)
@@ -92,13 +99,17 @@ static cdem_status pack(cdem_run_grains *g, cdem_fault *fault) {
   memcpy(g->low, wanted->low, sizeof g->low);
   memcpy(g->high, wanted->high, sizeof g->high);
   fill_periodic(g, packing, options.periodic);
+  bool pressed = cdem_case_given(&g->run->cases, "grains.packing.compact");
   cdem_status status = fill_sizes(wanted, &options.sizes, &classes, fault);
+  const cdem_compaction compaction = compaction_of(g, &options);
+  if (status == CDEM_OK && pressed)
+    cdem_packing_make_room(&options, &compaction);
   if (status == CDEM_OK)
     status = cdem_packing_make(packing, &options, &g->grains, fault);
   if (status == CDEM_INPUT || status == CDEM_NUMERIC)
     status = cdem_case_blame(&g->run->cases, "grains.packing", fault);
-  if (status == CDEM_OK && cdem_case_given(&g->run->cases, "grains.packing.compact"))
-    status = press(g, &options, fault);
+  if (status == CDEM_OK && pressed)
+    status = press(g, &options, &compaction, fault);
   free(classes);
   return status;
 }

@@ -21,7 +21,7 @@ static void tables_are_complete_and_found_by_name(void **state) {
         assert_true(fabs(law->parity[d][h]) == 1.0);
     }
   }
-  assert_int_equal(laws, 4);
+  assert_int_equal(laws, 5);
   assert_null(cdem_law_at(-1));
   assert_null(cdem_law_find("herz"));
   assert_string_equal(cdem_rolling_at(0)->name, "none");

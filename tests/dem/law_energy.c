@@ -156,6 +156,7 @@ static void elastic_spheres_create_no_energy(void **state) {
     for (int slides = 0; slides < 2; slides++) {
       creates_no_energy(cdem_law_find("hertz"), &p, slides ? 0.3 : 1e6);
       creates_no_energy(cdem_law_find("mindlin"), &p, slides ? 0.3 : 1e6);
+      creates_no_energy(cdem_law_find("penalty"), &p, slides ? 0.3 : 1e6);
     }
   }
 }

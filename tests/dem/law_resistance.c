@@ -155,7 +155,8 @@ static double turned_error(const cdem_contact_model *m, const double axis[3], in
     b.history[m->first[1] + k][0] = 1e-4 * start[1][k];
   }
   if (m->first[1] == 4)
-    b.history[3][0] = sqrt(5e-3 * 1e-5); /* Hertz: the contact radius */
+    b.history[3][0] = m->law == cdem_law_find("penalty") ? 1e-5               /* the overlap */
+                                                         : sqrt(5e-3 * 1e-5); /* contact radius */
   for (int i = 1; i <= steps; i++) {
     double a = angle * i / steps, c = cos(a), s = sin(a), across[3], now[3], dn[3];
     double on = cdem_dot3(axis, n);

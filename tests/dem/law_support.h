@@ -31,21 +31,14 @@ static inline cdem_contact_input typical(const cdem_law *law, const cdem_resista
   static const struct {
     cdem_law_key key;
     double value;
-  } table[] = {{CDEM_LAW_normal_stiffness, 1e6},
-               {CDEM_LAW_shear_stiffness, 3e5},
-               {CDEM_LAW_friction, 0.4},
-               {CDEM_LAW_restitution, 0.7},
-               {CDEM_LAW_normal_dashpot, 10.0},
-               {CDEM_LAW_shear_dashpot, 5.0},
-               {CDEM_LAW_rolling_stiffness, 5.0},
-               {CDEM_LAW_rolling_dashpot, 1e-4},
-               {CDEM_LAW_rolling_friction, 0.1},
-               {CDEM_LAW_rolling_length, 2e-4},
-               {CDEM_LAW_rolling_force_stiffness, 2e5},
-               {CDEM_LAW_rolling_force_dashpot, 3.0},
-               {CDEM_LAW_rolling_force_friction, 0.2},
-               {CDEM_LAW_twisting_stiffness, 4.0},
-               {CDEM_LAW_twisting_friction, 0.2}};
+  } table[] = {{CDEM_LAW_normal_stiffness, 1e6},      {CDEM_LAW_penalty_stiffness, 1e12},
+               {CDEM_LAW_shear_stiffness, 3e5},       {CDEM_LAW_friction, 0.4},
+               {CDEM_LAW_restitution, 0.7},           {CDEM_LAW_normal_dashpot, 10.0},
+               {CDEM_LAW_shear_dashpot, 5.0},         {CDEM_LAW_rolling_stiffness, 5.0},
+               {CDEM_LAW_rolling_dashpot, 1e-4},      {CDEM_LAW_rolling_friction, 0.1},
+               {CDEM_LAW_rolling_length, 2e-4},       {CDEM_LAW_rolling_force_stiffness, 2e5},
+               {CDEM_LAW_rolling_force_dashpot, 3.0}, {CDEM_LAW_rolling_force_friction, 0.2},
+               {CDEM_LAW_twisting_stiffness, 4.0},    {CDEM_LAW_twisting_friction, 0.2}};
   cdem_contact_input input = no_input();
   bool restitution = wanted(law->want, law->wants, CDEM_LAW_restitution);
   for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
@@ -141,7 +134,7 @@ static inline void random_batch(cdem_random *random, int dim, const cdem_contact
     }
     if (dim == 2 && vectors > 0)
       b->history[0][i] = cdem_random_uniform(random, -force, force);
-    /* what is left of hertz and mindlin are contact radii: the largest, the last */
+    /* what is left are contact radii of hertz and mindlin, the largest, the last; or the overlap */
     double most = 1e-3;
     for (int h = 3 * vectors; dim == 3 && h < model->first[1]; h++)
       b->history[h][i] = most = cdem_random_uniform(random, 0.0, most);

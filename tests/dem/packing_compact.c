@@ -98,6 +98,76 @@ static void refuse(const cdem_compaction *compaction, cdem_status status, const 
   cdem_grains_release(&before);
 }
 
+/* 60 spheres in a cylinder of five diameters. */
+static const double edge = 0.25;
+static cdem_packing_options spheres(double scale) {
+  return (cdem_packing_options){.dim = 3,
+                                .low = {-0.5 * edge * scale, -0.5 * edge * scale, 0.125 * scale},
+                                .high = {0.5 * edge * scale, 0.5 * edge * scale, 0.25 * scale},
+                                .cylinder = true,
+                                .sizes = {.kind = CDEM_SIZES_EQUAL, .radius = 0.025 * scale},
+                                .count = 60,
+                                .seed = 8};
+}
+
+static void pressed_in_a_cylinder(double scale, double height, int threads, cdem_grains *grains,
+                                  cdem_compacted *c) {
+  cdem_packing_options options = spheres(scale);
+  const cdem_compaction compaction = {.height = height * scale, .threads = threads};
+  cdem_packing_make_room(&options, &compaction);
+  check_near(60.0 * cdem_grain_solid(3, 0.025 * scale), 0.3 * cdem_packing_room(&options), 1e-12,
+             0.0);
+  *grains = loose(&options);
+  check_ok(cdem_packing_compact(&options, &compaction, grains, c, &fault));
+}
+
+static void the_height_of_a_cylinder_is_met(void **state) {
+  (void)state;
+  cdem_grains grains;
+  cdem_compacted c;
+  double height = 0.14;
+  pressed_in_a_cylinder(1.0, height, 1, &grains, &c);
+  assert_true(c.low[2] == 0.125 && c.high[2] == 0.125 + height);
+  assert_true(c.low[0] == -0.5 * edge && c.high[1] == 0.5 * edge);
+  check_near(c.fraction, 60.0 * pow(0.05, 3) * M_PI / 6.0 / (M_PI / 4.0 * edge * edge * height),
+             1e-8, 0.0);
+  check_below(c.unbalanced, 1e-2);
+  check_below(c.most_overlap, 0.2);
+  for (int64_t i = 0; i < grains.grains; i++) {
+    const double *x = grains.xyz + 3 * i;
+    double reach = 0.025 * (1.0 - c.most_overlap * (1.0 + 1e-9));
+    check_below(hypot(x[0], x[1]) + reach, 0.5 * edge);
+    assert_true(x[2] - reach >= c.low[2] && x[2] + reach <= c.high[2] * (1.0 + 1e-9));
+  }
+  cdem_grains_release(&grains);
+}
+
+static void cylinders_scale_to_the_bit_whatever_the_threads(void **state) {
+  (void)state;
+  cdem_grains a, b;
+  cdem_compacted ca, cb;
+  pressed_in_a_cylinder(1.0, 0.14, 1, &a, &ca);
+  pressed_in_a_cylinder(4.0, 0.14, 2, &b, &cb);
+  assert_int_equal(ca.steps, cb.steps);
+  for (int64_t i = 0; i < 3 * a.grains; i++)
+    assert_true(b.xyz[i] == 4.0 * a.xyz[i]);
+  assert_true(ca.fraction == cb.fraction && ca.most_overlap == cb.most_overlap);
+  cdem_grains_release(&a);
+  cdem_grains_release(&b);
+}
+
+static void cylinders_jam(void **state) {
+  (void)state;
+  cdem_packing_options options = spheres(1.0);
+  const cdem_compaction compaction = {.height = 0.11};
+  cdem_compacted c;
+  cdem_packing_make_room(&options, &compaction);
+  cdem_grains grains = loose(&options);
+  check_fails(cdem_packing_compact(&options, &compaction, &grains, &c, &fault), CDEM_NUMERIC,
+              "the grains jam at a solid fraction of 0.");
+  cdem_grains_release(&grains);
+}
+
 static bool never(void *context, const char *what, int64_t done, int64_t total) {
   (void)context;
   (void)what;
@@ -106,10 +176,26 @@ static bool never(void *context, const char *what, int64_t done, int64_t total) 
   return false;
 }
 
+static void refuse_cylinder(const cdem_compaction *compaction, const char *text) {
+  cdem_packing_options options = spheres(1.0);
+  cdem_packing_make_room(&options, &(cdem_compaction){.height = 0.1});
+  cdem_grains grains = loose(&options);
+  cdem_compacted c;
+  check_fails(cdem_packing_compact(&options, compaction, &grains, &c, &fault), CDEM_INPUT, text);
+  cdem_grains_release(&grains);
+}
+
 static void refusals(void **state) {
   (void)state;
-  refuse(&(cdem_compaction){.fraction = 0.8, .pressure = 1.0}, CDEM_INPUT,
-         "compaction needs one target: a solid fraction (0.8) or a pressure (1 Pa)");
+  refuse(
+      &(cdem_compaction){.fraction = 0.8, .pressure = 1.0}, CDEM_INPUT,
+      "compaction needs one target: a solid fraction (0.8), a pressure (1 Pa) or the height of a "
+      "cylinder (0 m)");
+  refuse(&(cdem_compaction){.height = 0.1}, CDEM_INPUT, "to a height is for a cylinder");
+  refuse_cylinder(&(cdem_compaction){.pressure = 1.0}, "needs its height or a solid fraction");
+  refuse_cylinder(&(cdem_compaction){.height = 1.0}, "not more than the 1 m wanted");
+  refuse_cylinder(&(cdem_compaction){.height = 0.1, .periodic = {false, false, true}},
+                  "cannot be periodic along its axis");
   refuse(&(cdem_compaction){0}, CDEM_INPUT, "compaction needs one target");
   refuse(&(cdem_compaction){.fraction = 0.2}, CDEM_INPUT, "before it begins, more than the 0.2000");
   refuse(&(cdem_compaction){.fraction = 1.2}, CDEM_INPUT, "must lie between 0 and 1");
@@ -138,6 +224,9 @@ int main(void) {
       cmocka_unit_test(pressure_is_met),
       cmocka_unit_test(threads_do_not_matter),
       cmocka_unit_test(fraction_is_met),
+      cmocka_unit_test(the_height_of_a_cylinder_is_met),
+      cmocka_unit_test(cylinders_scale_to_the_bit_whatever_the_threads),
+      cmocka_unit_test(cylinders_jam),
       cmocka_unit_test(refusals),
   };
   return cmocka_run_group_tests_name("dem packing_compact", tests, NULL, NULL);

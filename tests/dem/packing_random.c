@@ -122,6 +122,31 @@ static void bad_sizes(void **state) {
   check_fails(cdem_sizes_check(&s, &fault), CDEM_INPUT, "there is no size law 17");
 }
 
+/* The binary specimens of Wang et al. (2024): equal masses of d and 2 d, eight small ones to one.
+ */
+static void a_count_of_classes_is_dealt_out(void **state) {
+  (void)state;
+  const double radius[2] = {0.01, 0.02}, half[2] = {0.5, 0.5};
+  const cdem_packing_options options = {.dim = 3,
+                                        .high = {0.5, 0.5, 0.5},
+                                        .sizes = {.kind = CDEM_SIZES_TABLE,
+                                                  .entries = 2,
+                                                  .class_radius = radius,
+                                                  .class_fraction = half},
+                                        .count = 1072,
+                                        .seed = 4};
+  cdem_grains grains;
+  int64_t large = 0, first = 0;
+  check_ok(cdem_packing_make(cdem_packing_find("loose"), &options, &grains, &fault));
+  for (int64_t i = 0; i < grains.grains; i++) {
+    large += grains.radius[i] == 0.02;
+    first += grains.radius[i] == 0.02 && i < 536;
+  }
+  assert_int_equal(large, 119);          /* 1072/9 */
+  assert_true(first > 35 && first < 85); /* half of them, five times sigma */
+  cdem_grains_release(&grains);
+}
+
 /* ---- packings ---- */
 
 static cdem_grains made(const char *name, const cdem_packing_options *options) {
@@ -396,6 +421,7 @@ int main(void) {
       cmocka_unit_test(draws_follow_the_law),
       cmocka_unit_test(solid_of_laws),
       cmocka_unit_test(bad_sizes),
+      cmocka_unit_test(a_count_of_classes_is_dealt_out),
       cmocka_unit_test(inward_laws),
       cmocka_unit_test(inward_goes_inwards),
       cmocka_unit_test(foundation_c),

@@ -110,8 +110,8 @@ static void test_numbering(void **state) {
 
 static void test_restart(void **state) {
   (void)state;
-  static const char *const laws[] = {"linear", "hertz", "li-chu", "mindlin"};
-  for (int k = 0; k < 4; k++) {
+  static const char *const laws[] = {"linear", "hertz", "li-chu", "mindlin", "penalty"};
+  for (int k = 0; k < 5; k++) {
     model m;
     cdem_dem dem, again;
     cdem_fault fault = {0};
@@ -143,8 +143,8 @@ static void test_restart(void **state) {
 static void test_scaling(void **state) {
   (void)state;
   const double length = 4.0, time = 2.0, mass = 8.0;
-  static const char *const laws[] = {"linear", "hertz", "li-chu", "mindlin"};
-  for (int k = 0; k < 4; k++) {
+  static const char *const laws[] = {"linear", "hertz", "li-chu", "mindlin", "penalty"};
+  for (int k = 0; k < 5; k++) {
     model m, large;
     int dim = k == 2 ? 2 : 3, side = k == 2 ? 8 : 4;
     heap(&m, dim, laws[k], side);
@@ -183,8 +183,8 @@ static void test_scaling(void **state) {
  */
 static void test_reference(void **state) {
   (void)state;
-  static const char *const laws[] = {"linear", "hertz", "li-chu", "mindlin"};
-  for (int k = 0; k < 4; k++)
+  static const char *const laws[] = {"linear", "hertz", "li-chu", "mindlin", "penalty"};
+  for (int k = 0; k < 5; k++)
     for (int dim = 2; dim <= 3; dim++) {
       model m;
       if (!cdem_law_find(laws[k])->dims[dim])

@@ -34,7 +34,9 @@ static inline void model_init(model *m, int dim, const char *law) {
   for (int k = 0; k < MODEL_MATERIALS * MODEL_MATERIALS; k++)
     for (int w = 0; w < CDEM_LAW_KEYS; w++)
       m->contact[k].value[w] = NAN;
-  if (strcmp(law, "hertz") != 0 && strcmp(law, "mindlin") != 0)
+  if (strcmp(law, "penalty") == 0)
+    model_word(m, CDEM_LAW_penalty_stiffness, 3e9);
+  else if (strcmp(law, "hertz") != 0 && strcmp(law, "mindlin") != 0)
     model_word(m, CDEM_LAW_normal_stiffness, 1e5);
   if (strcmp(law, "li-chu") == 0) {
     model_word(m, CDEM_LAW_shear_stiffness, 2e4);
