@@ -199,6 +199,10 @@ bool cdem_case_has_deformable(const cdem_case *cases) {
   return cdem_case_given(cases, "grains.deformable");
 }
 
+bool cdem_case_is_triaxial(const cdem_case *cases) {
+  return cdem_case_given(cases, "triaxial");
+}
+
 bool cdem_case_has_grains(const cdem_case *cases) {
   return cdem_case_given(cases, "grains");
 }

@@ -4,7 +4,7 @@
  * dem). Of implicit modes it is g v- (v- + dt Q/g)/2: the scheme's own energy with the half of the
  * trapezoid that is still to come (motion.c).
  */
-#include "fdem/solver_store.h"
+#include "fdem/confine.h"
 
 typedef struct {
   double translation, rotation, vibration, elastic;
@@ -76,10 +76,14 @@ void cdem_fdem_energies_now(const cdem_fdem *fdem, cdem_fdem_energies *e) {
     for (int c = 0; c < 3; c++)
       e->gravity +=
           s->mass[g] * s->options.gravity[c] * (s->center[3 * g + c] - s->start[3 * g + c]);
-  double kept = e->translation + e->rotation + e->vibration + e->elastic + e->normal + e->shear;
-  e->error = kept + e->friction + e->damping + e->numerical - e->gravity - e->walls - e->initial;
-  const double term[] = {e->initial, kept,     e->friction, e->damping,    e->numerical,
-                         e->gravity, e->walls, e->elastic,  e->translation};
+  if (s->confine != NULL)
+    cdem_fdem_confine_energies(fdem, e);
+  double kept =
+      e->translation + e->rotation + e->vibration + e->elastic + e->normal + e->shear + e->membrane;
+  double done = e->gravity + e->walls + e->pressure;
+  e->error = kept + e->friction + e->damping + e->numerical - done - e->initial;
+  const double term[] = {e->initial, kept,     e->friction, e->damping,     e->numerical,
+                         e->gravity, e->walls, e->elastic,  e->translation, e->pressure};
   for (size_t i = 0; i < sizeof term / sizeof *term; i++)
     s->exchange = fmax(s->exchange, fabs(term[i]));
   e->exchange = s->exchange;

@@ -7,11 +7,12 @@
  * of the modes of its template. Contact acts on surface nodes (Wang et al. 2024, eqs 1-3): a node
  * that is inside another grain, or beyond a wall, by d carries
  *
- *     F_n = |k d - c d'|+,  F_s = min(|k_s u_s + c_s u_s'|, mu F_n),  k = p A,  c = 2 beta sqrt(m
+ *     F_n = |k d + c d'|+,  F_s = min(|k_s u_s + c_s u_s'|, mu F_n),  k = p A,  c = 2 beta sqrt(m
  * k)   (1)
  *
- * with A its tributary area and m its mass; the triangle it is in takes the opposite force by its
- * barycentric weights. Nodes of both grains of a pair act.
+ * with d' and u_s' the speeds of sinking and sliding, A its tributary area and m its mass; the
+ * triangle it is in takes the opposite force by its barycentric weights. Nodes of both grains of a
+ * pair act.
  *
  * Time: v and w at half steps, as in the room dem. The rigid motion is explicit (angular momentum
  * is the variable, so it is kept to rounding by any shape); the modes are either explicit too, with
@@ -25,6 +26,7 @@
 #ifndef CDEM_FDEM_FDEM_H
 #define CDEM_FDEM_FDEM_H
 
+#include "dem/confinement.h"
 #include "dem/walls.h"
 #include "fdem/template.h"
 #include "results/state.h"
@@ -57,7 +59,8 @@ typedef struct {
   const double *density;            /* [materials] kg/m^3, of grains */
   const cdem_fdem_contact_law *law; /* [materials][materials], symmetric */
   int walls;
-  const cdem_wall *wall; /* planes, plates, cylinders */
+  const cdem_wall *wall;               /* planes, plates, cylinders */
+  const cdem_confinement *confinement; /* a triaxial specimen with a membrane; NULL: none */
   double gravity[3];
   double mass_damping;  /* 1/s, on velocity, spin and modes */
   double damping_ratio; /* of every mode, beside what `implicit` takes: of critical */
@@ -75,7 +78,9 @@ typedef struct {
   double elastic, normal, shear;           /* stored: in the grains, in the contact springs */
   double friction, damping, numerical;     /* dissipated: sliding; dashpots, mass and modal damping;
                                               by the implicit step */
-  double gravity, walls;                   /* work */
+  double membrane;                         /* all that it holds, contact with grains included */
+  double gravity, walls; /* work; of the pressure, and of the plates on the membrane */
+  double pressure;
   double initial, error, exchange;
 } cdem_fdem_energies;
 
@@ -137,6 +142,13 @@ cdem_status cdem_fdem_touches(const cdem_fdem *fdem, int64_t *touches, cdem_fdem
 void cdem_fdem_wall_now(const cdem_fdem *fdem, int wall, double force[3], double center[3],
                         double velocity[3]);
 void cdem_fdem_wall_move(cdem_fdem *fdem, int wall, const cdem_series velocity[3]);
+
+/* ---- of a specimen ---- */
+/* The high plate goes with this velocity along z from now on, in place of its servo. */
+void cdem_fdem_shear(cdem_fdem *fdem, double velocity);
+/* false: there is none. */
+bool cdem_fdem_specimen(const cdem_fdem *fdem, cdem_specimen *now);
+const cdem_membrane *cdem_fdem_membrane(const cdem_fdem *fdem);
 
 cdem_status cdem_fdem_save(const cdem_fdem *fdem, cdem_state *state, cdem_fault *fault);
 cdem_status cdem_fdem_restore(cdem_fdem *fdem, const cdem_state *state, cdem_fault *fault);

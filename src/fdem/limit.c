@@ -8,7 +8,7 @@
  * differences), the highest mode of the grains itself included where modes are explicit. The
  * stiffness at one node is taken as four nodes' penalty: two of each of the two surfaces.
  */
-#include "fdem/solver_store.h"
+#include "fdem/confine.h"
 
 /* Largest penalty of a material against any other. */
 static double penalty_of(const cdem_fdem_options *o, int material) {
@@ -46,7 +46,7 @@ double cdem_fdem_limit(const cdem_fdem *fdem) {
   double least = INFINITY;
   for (int64_t g = 0; g < fdem->grains; g++)
     least = fmin(least, limit_of(fdem->store, g));
-  return least;
+  return fdem->store->confine != NULL ? fmin(least, cdem_fdem_confine_limit(fdem->store)) : least;
 }
 
 static double safety_of(const cdem_fdem *fdem) {
@@ -75,6 +75,9 @@ void cdem_fdem_follow(cdem_fdem *fdem) {
     return;
   s->base_time = fdem->time;
   s->base_steps = fdem->steps;
-  s->kick = 0.5 * (fdem->step + wanted);
+  double old = fdem->step;
+  s->kick = 0.5 * (old + wanted);
   fdem->step = wanted;
+  if (s->confine != NULL)
+    cdem_fdem_confine_change_step(fdem, old);
 }

@@ -1,5 +1,5 @@
 /* Making, stepping and releasing. */
-#include "fdem/solver_store.h"
+#include "fdem/confine.h"
 
 #include <cblas.h>
 #include <omp.h>
@@ -39,6 +39,15 @@ cdem_status cdem_fdem_forces(cdem_fdem_store *s, double step, cdem_fault *fault)
   return CDEM_OK;
 }
 
+static cdem_status evaluate(cdem_fdem *fdem, double step, cdem_fault *fault) {
+  cdem_status status = cdem_fdem_forces(fdem->store, step, fault);
+  if (status == CDEM_NUMERIC)
+    cdem_fault_prefix(fault, "at t = %.6g s", fdem->time);
+  if (status == CDEM_OK && fdem->store->confine != NULL)
+    status = cdem_fdem_confine_forces(fdem, step, fault);
+  return status;
+}
+
 /* ---- making ---- */
 
 /* From velocities at t = 0 to those of half a step before; places a step ago for the dashpots. */
@@ -74,9 +83,14 @@ static cdem_status start(cdem_fdem *fdem, cdem_fault *fault) {
   memcpy(s->before, s->now, (size_t)(3 * s->nodes) * sizeof *s->now);
   cdem_contact_view view = cdem_fdem_contact_view(s, 0.0);
   CDEM_TRY(cdem_fdem_contacts_create(&view, s->options.skin, s->threads, &s->contacts, fault));
-  CDEM_TRY(cdem_fdem_forces(s, 0.0, fault));
+  CDEM_TRY(cdem_fdem_confine_init(fdem, fault));
+  CDEM_TRY(evaluate(fdem, 0.0, fault));
   CDEM_TRY(cdem_fdem_first_step(fdem, fault));
   set_before(fdem);
+  if (s->confine != NULL) {
+    cdem_membrane_change_step(&s->confine->membrane, 0.0, fdem->step);
+    cdem_fdem_confine_calm(fdem);
+  }
   cdem_fdem_book_start(fdem);
   return CDEM_OK;
 }
@@ -117,6 +131,7 @@ void cdem_fdem_release(cdem_fdem *fdem) {
     return;
   for (int w = 0; s->wall != NULL && w < s->options.walls; w++)
     cdem_wall_body_release(s->wall + w);
+  cdem_fdem_confine_release(s);
   cdem_fdem_contacts_destroy(&s->contacts);
   void *const array[] = {
       s->surface,  s->first,    s->mode,  s->shape,     s->material,   s->radius,    s->mass,
@@ -160,19 +175,23 @@ static bool move(cdem_fdem *fdem) {
     s->sums.numerical += s->part[b].sums.numerical;
     good = good && s->part[b].bad < 0;
   }
+  if (s->confine != NULL)
+    cdem_fdem_confine_aim(fdem);
   for (int w = 0; w < s->options.walls; w++)
     cdem_wall_body_advance(s->wall + w, fdem->time, fdem->step, s->wall_force + 3 * w,
                            s->wall_stiff[w]);
   fdem->steps++;
   fdem->time = s->base_time + (double)(fdem->steps - s->base_steps) * fdem->step;
   s->kick = fdem->step;
+  if (s->confine != NULL)
+    cdem_fdem_confine_move(fdem);
   return good;
 }
 
 static cdem_status step_once(cdem_fdem *fdem, cdem_fault *fault) {
   if (!move(fdem))
     return report_bad(fdem, fault);
-  return cdem_fdem_forces(fdem->store, fdem->step, fault);
+  return evaluate(fdem, fdem->step, fault);
 }
 
 cdem_status cdem_fdem_steps(cdem_fdem *fdem, int64_t steps, cdem_fault *fault) {

@@ -55,6 +55,7 @@ struct cdem_fdem_store {
   cdem_wall_body *wall;
   double *wall_force, *wall_stiff; /* [walls][3], [walls] */
   cdem_fdem_contacts *contacts;
+  struct cdem_fdem_confine *confine; /* confine.h; NULL: no specimen */
 
   double kick; /* the step by which velocities grow next: the mean of the last and the next one */
   double base_time;

@@ -1,5 +1,5 @@
 /* Checkpoints: what changes while the grains move. */
-#include "fdem/solver_store.h"
+#include "fdem/confine.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -69,6 +69,8 @@ cdem_status cdem_fdem_save(const cdem_fdem *fdem, cdem_state *state, cdem_fault 
   for (int i = 0; i < FIELDS; i++)
     CDEM_TRY(cdem_state_add(state, all[i].name, CDEM_ARRAY_REAL, all[i].count, all[i].data, fault));
   CDEM_TRY(save_walls(s, state, fault));
+  if (s->confine != NULL)
+    CDEM_TRY(cdem_fdem_confine_save(s, state, fault));
   return cdem_fdem_contacts_save(s->contacts, state, fault);
 }
 
@@ -111,5 +113,6 @@ cdem_status cdem_fdem_restore(cdem_fdem *fdem, const cdem_state *state, cdem_fau
     if (all[i].data == s->before)
       CDEM_TRY(cdem_state_get(state, all[i].name, CDEM_ARRAY_REAL, all[i].count, s->before, fault));
   cdem_contact_view view = cdem_fdem_contact_view(s, fdem->step);
-  return cdem_fdem_contacts_restore(s->contacts, &view, state, fault);
+  CDEM_TRY(cdem_fdem_contacts_restore(s->contacts, &view, state, fault));
+  return s->confine != NULL ? cdem_fdem_confine_restore(fdem, state, fault) : CDEM_OK;
 }

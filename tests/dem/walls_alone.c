@@ -62,7 +62,8 @@ static void alone_it_moves_as_in_a_store(void **state) {
       same_pose(&body, w.s.walls->body);
     }
     w.s.walls->time = k * step;
-    cdem_walls_advance(&w.s, k * step, step, force, &stiffness, &moved);
+    const cdem_wall_loads loads = {.force = force, .stiffness = &stiffness};
+    cdem_walls_advance(&w.s, k * step, step, &loads, &moved);
     cdem_wall_body_advance(&body, k * step, step, force, stiffness);
     same_pose(&body, w.s.walls->body);
   }
