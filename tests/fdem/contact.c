@@ -109,6 +109,62 @@ static void dashpots_push_and_never_pull(void **state) {
   }
 }
 
+/* One that leaves so fast that nothing pushes gives what its spring held to the dashpot, not to the
+ * motion: half of it while it still touches, by the trapezoid, half when it has left. */
+static void a_spring_left_behind_goes_to_the_dashpot(void **state) {
+  (void)state;
+  model m;
+  two_cubes(&m);
+  model_start(&m, 0.0, 1);
+  model_forces(&m, 0.0);
+  double held = m.book.normal, dissipated = 0.0;
+  for (int k = 0; k < 2; k++) { /* 0.05 mm, then out */
+    memcpy(m.before, m.now, 3 * (size_t)m.nodes * sizeof *m.now);
+    m.center[5] += k == 0 ? 5e-5 : 1e-3;
+    set_now(&m);
+    model_forces(&m, 1e-6);
+    assert_true(m.force[2] == 0.0);
+    dissipated += m.book.damping;
+  }
+  assert_true(m.book.normal == 0.0);
+  /* k d^2/2 = (0 + F)(d - d')/2 + F d'/2 with F = k d', d' = d/2: 3/8 by k d^2/2 and 1/4 of it */
+  check_near(m.book.damping, 0.25 * held, 1e-9, 0.0);
+  check_near(dissipated, 0.5 * held, 1e-9, 0.0);
+  model_release(&m);
+}
+
+/* Nodes on an edge of a cube that are in a grain below by 0.1 mm and in one beside by 0.2 mm. */
+static void a_node_touches_the_grain_it_is_deepest_in(void **state) {
+  (void)state;
+  for (int below = 1; below <= 2; below++) {
+    const cdem_skin *skins[3] = {skin_of, skin_of, skin_of};
+    const double place[3][3] = {
+        {0.0, 0.0, 0.0}, {-0.003, 0.002, -0.0199}, {-0.0198, 0.002, -0.003}};
+    cdem_fault fault = {0};
+    cdem_fdem_touch *touch;
+    int64_t touches;
+    int on_the_edge = 0;
+    model m;
+    model_make(&m, 3, skins, 0.02, law);
+    memcpy(m.center + 3 * below, place[1], sizeof place[1]);
+    memcpy(m.center + 3 * (3 - below), place[2], sizeof place[2]);
+    model_start(&m, 0.0, 1);
+    model_forces(&m, 0.0);
+    check_ok(cdem_fdem_contacts_list(m.contacts, &m.view, &touches, &touch, &fault));
+    for (int64_t k = 0; k < touches && touch[k].grain == 0; k++) {
+      assert_true(k == 0 || touch[k].node > touch[k - 1].node);
+      if (touch[k].point[0] < -0.005 && touch[k].point[2] < -0.005) {
+        assert_int_equal(touch[k].partner, 3 - below);
+        check_near(touch[k].depth, 2e-4, 1e-11, 0.0);
+        on_the_edge++;
+      }
+    }
+    assert_int_equal(on_the_edge, 2);
+    free(touch);
+    model_release(&m);
+  }
+}
+
 /* ---- both momenta ---- */
 
 /* A heap of cubes, balls and notches that overlap, deformed, turned anyhow and moving. */
@@ -383,6 +439,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_node_is_pushed_by_its_area_and_depth),
       cmocka_unit_test(dashpots_push_and_never_pull),
+      cmocka_unit_test(a_spring_left_behind_goes_to_the_dashpot),
+      cmocka_unit_test(a_node_touches_the_grain_it_is_deepest_in),
       cmocka_unit_test(both_momenta_are_kept),
       cmocka_unit_test(friction_is_a_spring_with_a_cap),
       cmocka_unit_test(springs_are_forgotten_with_the_touch),
