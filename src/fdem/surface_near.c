@@ -75,7 +75,7 @@ double cdem_near_side(const cdem_skin *surface, const double *place, int32_t t,
   pseudo_normal(surface, place, t, near->feature, normal);
   for (int c = 0; c < 3; c++)
     out[c] = y[c] - (u * corner[0][c] + near->v * corner[1][c] + near->w * corner[2][c]);
-  double distance = sqrt(near->square);
+  double distance = cdem_norm3(out);
   return cdem_dot3(normal, out) >= 0.0 ? distance : -distance;
 }
 
@@ -112,6 +112,7 @@ static void fill(const cdem_skin *surface, const double *place, int32_t t, const
       touch->normal[c] /= twice;
     return;
   }
+  /* |p - y| as cdem_near_side has it, so that the normal is of unit length */
   for (int c = 0; c < 3; c++)
     touch->normal[c] =
         (u * corner[0][c] + near->v * corner[1][c] + near->w * corner[2][c] - y[c]) / touch->depth;

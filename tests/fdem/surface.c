@@ -142,7 +142,10 @@ static void compare(const cdem_skin *skin, const double *place, double scale, in
     cdem_skin_touch touch;
     for (int c = 0; c < 3; c++)
       y[c] = cdem_random_uniform(random, -reach, reach);
-    if (i % 3 != 0) { /* most of them near the surface */
+    if (i % 3 == 1) { /* near a node */
+      for (int c = 0; c < 3; c++)
+        y[c] = 0.03 * y[c] + place[3 * (i % skin->nodes) + c];
+    } else if (i % 3 == 2) { /* near the surface */
       const int32_t *v = skin->triangle + 3 * (i % skin->triangles);
       double a = cdem_random_uniform(random, 0.0, 1.0), b = cdem_random_uniform(random, 0.0, 1.0);
       for (int c = 0; c < 3; c++)
@@ -220,6 +223,30 @@ static void a_notch_is_outside(void **state) {
   check_near(touch.normal[0], 0.6, 1e-13, 0.0);
   check_near(touch.normal[1], 0.0, 0.0, 1e-15);
   check_near(touch.normal[2], 0.8, 1e-13, 0.0);
+  cdem_skin_release(&skin);
+  cdem_mesh_release(&mesh);
+}
+
+/* The flat tip of a body, its lower side cut into four: there the mean of the triangles' normals
+ * points down, and takes places above the tip for inside; that by angles does not. */
+static void triangles_at_a_corner_count_by_their_angles(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  cdem_mesh mesh = {0};
+  cdem_skin skin;
+  cdem_skin_touch touch;
+  const double tip[7][3] = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.2}, {1.0, -1.0, 0.0}, {1.0, -0.5, 0.0},
+                            {1.0, 0.0, 0.0}, {1.0, 0.5, 0.0}, {1.0, 1.0, 0.0}};
+  check_ok(cdem_mesh_add_nodes(&mesh, 7, tip[0], NULL, &fault));
+  for (int32_t k = 0; k < 4; k++)
+    check_ok(cdem_mesh_add_cells(&mesh, CDEM_SHAPE_TET4, 1, (int32_t[4]){0, 2 + k, 3 + k, 1}, NULL,
+                                 &fault));
+  check_ok(cdem_skin_build(&mesh, 7, 0.05, &skin, &fault));
+  assert_false(
+      cdem_skin_touches(&skin, skin.reference, 1.0, (double[3]){-1e-3, 0.0, 4e-3}, &touch));
+  assert_false(
+      cdem_skin_touches(&skin, skin.reference, 1.0, (double[3]){-1e-3, 0.0, -4e-3}, &touch));
+  assert_true(cdem_skin_touches(&skin, skin.reference, 1.0, (double[3]){0.1, 0.0, 1e-3}, &touch));
   cdem_skin_release(&skin);
   cdem_mesh_release(&mesh);
 }
@@ -421,6 +448,7 @@ int main(void) {
       cmocka_unit_test(areas_are_thirds_of_triangles),
       cmocka_unit_test(nearest_points_are_the_nearest_of_all),
       cmocka_unit_test(a_notch_is_outside),
+      cmocka_unit_test(triangles_at_a_corner_count_by_their_angles),
       cmocka_unit_test(a_depth_shrinks_along_its_normal),
       cmocka_unit_test(twice_as_large_is_twice_as_deep),
       cmocka_unit_test(lists_are_short),
