@@ -78,6 +78,10 @@ static void put_energies(cdem_run_row *row, cdem_run_deformable *d) {
   cdem_run_put(row, "J", book.elastic, "elastic");
   cdem_run_put(row, "J", book.normal, "normal");
   cdem_run_put(row, "J", book.shear, "shear");
+  if (d->grains->has_triaxial) {
+    cdem_run_put(row, "J", book.membrane, "membrane");
+    cdem_run_put(row, "J", book.pressure, "pressure");
+  }
   cdem_run_put(row, "J", book.friction, "friction");
   cdem_run_put(row, "J", book.damping, "damping");
   cdem_run_put(row, "J", book.numerical, "numerical");
@@ -123,4 +127,5 @@ void cdem_run_deformable_columns(cdem_run_setup *run, cdem_run_row *row) {
   put_energies(row, d);
   put_assembly(row, d);
   put_walls(row, d);
+  cdem_run_deformable_triaxial_columns(d, row);
 }

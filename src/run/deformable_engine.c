@@ -12,7 +12,8 @@ static cdem_status build_grains(cdem_run_deformable *d, const cdem_state *checkp
   cdem_run_grains *g = d->grains;
   CDEM_TRY(cdem_run_grains_materials(g, fault));
   CDEM_TRY(cdem_run_grains_contacts(g, fault));
-  CDEM_TRY(cdem_run_grains_walls(g, checkpoint, fault));
+  CDEM_TRY(cdem_case_is_triaxial(&g->run->cases) ? cdem_run_grains_triaxial(g, fault)
+                                                 : cdem_run_grains_walls(g, checkpoint, fault));
   return cdem_run_deformable_solver(d, fault);
 }
 
@@ -52,11 +53,16 @@ static void release(cdem_run_setup *run) {
 static cdem_status save(const cdem_run_setup *run, cdem_state *state, cdem_fault *fault) {
   const cdem_run_deformable *d = cdem_run_deformable_of(run);
   CDEM_TRY(cdem_run_grains_save(d->grains, state, fault));
+  if (d->grains->has_triaxial)
+    CDEM_TRY(cdem_run_triaxial_save(&d->grains->triaxial, state, fault));
   return cdem_fdem_save(&d->fdem, state, fault);
 }
 
 static cdem_status restore(cdem_run_setup *run, const cdem_state *checkpoint, cdem_fault *fault) {
-  return cdem_fdem_restore(&cdem_run_deformable_of(run)->fdem, checkpoint, fault);
+  cdem_run_deformable *d = cdem_run_deformable_of(run);
+  if (d->grains->has_triaxial)
+    CDEM_TRY(cdem_run_triaxial_restore(&d->grains->triaxial, checkpoint, fault));
+  return cdem_fdem_restore(&d->fdem, checkpoint, fault);
 }
 
 /* ---- on its way ---- */
@@ -67,7 +73,7 @@ static void now(const cdem_run_setup *run, cdem_run_now *at) {
 }
 
 static cdem_status advance(cdem_run_setup *run, int64_t steps, cdem_fault *fault) {
-  return cdem_fdem_steps(&cdem_run_deformable_of(run)->fdem, steps, fault);
+  return cdem_run_deformable_advance(cdem_run_deformable_of(run), steps, fault);
 }
 
 static cdem_status look(cdem_run_setup *run, cdem_fault *fault) {
@@ -138,9 +144,11 @@ const cdem_run_engine cdem_run_engine_deformable = {
     .strides = true,
     .row_every = 1000,
     .look_every = 200,
-    .energies = {{"stored", {"translation", "rotation", "vibration", "elastic", "normal", "shear"}},
+    .energies = {{"stored",
+                  {"translation", "rotation", "vibration", "elastic", "normal", "shear",
+                   "membrane"}},
                  {"dissipated", {"friction", "damping", "numerical"}},
-                 {"work done", {"gravity", "walls"}}},
+                 {"work done", {"gravity", "walls", "pressure"}}},
     .build = build,
     .release = release,
     .save = save,

@@ -75,5 +75,6 @@ cdem_status cdem_run_deformable_frames(cdem_run_setup *run, int64_t index,
   cdem_frame_draft_add(&r, "force", "N", false, 3, CDEM_FIELD_REAL, s.force);
   cdem_frame_draft_add(&r, "velocity", "m/s", false, 3, CDEM_FIELD_REAL, s.velocity);
   cdem_frame_draft_add(&r, "id", "", false, 1, CDEM_FIELD_INT32, s.id);
-  return cdem_frame_draft_send(&r, &frame, sink);
+  CDEM_TRY(cdem_frame_draft_send(&r, &frame, sink));
+  return cdem_run_deformable_membrane(d, index, sink, fault);
 }

@@ -149,6 +149,7 @@ static cdem_fdem_options options_of(const cdem_run_deformable *d) {
       .law = d->law,
       .walls = g->walls,
       .wall = g->wall,
+      .confinement = g->has_triaxial ? &g->confinement : NULL,
       .mass_damping = v->mass_damping,
       .damping_ratio = v->grains.deformable.damping_ratio,
       .integration =
