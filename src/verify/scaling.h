@@ -13,7 +13,8 @@
   X(bits)     /* 10 case (cdem_scaling_case) + 0 h = 2, 1 h = 4, 2 h = 1/2, 3 length 2, time 4,    \
                  density 1: numbers of history and checkpoint that are not the original's times a  \
                  power of two */                                                                   \
-  X(rounding) /* case: h = 3, largest relative difference of a column, by its largest value */     \
+  X(rounding) /* case: h = 3, largest difference of the histories by the largest value of the same \
+                 unit */                                                                           \
   X(ratios)   /* table 1 of the source and what follows from it: worst relative error of the       \
                  factors, h = 3 */
 
@@ -26,8 +27,9 @@ CDEM_SCALING_MEASURES(X)
 typedef struct {
   int64_t numbers; /* that were compared */
   int64_t off;     /* that are not the original's times their factor, to the last bit */
-  double apart;    /* largest difference in a column by the column's largest value */
+  double apart;    /* largest difference in the history by the largest value of its dimension */
   char first[160]; /* the first that is off */
+  char worst[80];  /* the column of `apart` */
 } cdem_scaling_difference;
 
 /* `text` is a case without files. Columns of the history are compared by the dimension of their
@@ -37,6 +39,7 @@ cdem_status cdem_scaling_pair(const char *text, const cdem_ratios *ratios, bool 
                               cdem_scaling_difference *difference, cdem_fault *fault);
 
 typedef enum {
+  CDEM_SCALING_BODY,     /* one elastic body under loads that vary in time, 2-D */
   CDEM_SCALING_FRACTURE, /* blocks that break and touch between plates, 2-D */
   CDEM_SCALING_SOLID,    /* blocks that break under gravity on a plate, 3-D */
   CDEM_SCALING_SPHERES,  /* Mindlin, walls, gravity */

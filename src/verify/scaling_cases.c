@@ -2,6 +2,22 @@
 #include "verify/scaling.h"
 
 const char *const cdem_scaling_text[CDEM_SCALING_CASES] = {
+    [CDEM_SCALING_BODY] =
+        "end: 0.3 ms\n"
+        "thickness: 20 mm\n"
+        "mesh: {shape: quad4, count: [5, 6], size: [50 mm, 60 mm], distortion: 0.2}\n"
+        "materials:\n"
+        "  rock: {young: 30 GPa, poisson: 0.25, density: 2700 kg/m3}\n"
+        "mass_damping: 300 1/s\n"
+        "gravity: [0, -9.81 m/s2]\n"
+        "quiet: x0\n"
+        "supports: [{group: y0, velocity: {y: {pulse: 0.2 m/s, duration: 0.1 ms, start: 20 us}}}]\n"
+        "loads:\n"
+        "  - {group: x1, traction: {x: {sine: 1 MPa, frequency: 5 kHz, phase: 0.3, offset: 0.1 "
+        "MPa}}}\n"
+        "  - {group: y1, pressure: {table: [[0 s, 0 Pa], [0.1 ms, 2 MPa]]}}\n"
+        "history_every: 10 us\n"
+        "probes: {tip: {group: x1, quantity: velocity, component: x}}\n",
     [CDEM_SCALING_FRACTURE] =
         "end: 0.6 ms\n"
         "mesh: {shape: tri3, count: [5, 6], size: [50 mm, 60 mm], origin: [-25 mm, 0], "
@@ -16,9 +32,9 @@ const char *const cdem_scaling_text[CDEM_SCALING_CASES] = {
         "mass_damping: 1000 1/s\n"
         "gravity: [0, -9.81 m/s2]\n"
         "plates:\n"
-        "  press: {point: [0, 60 mm], normal: [0, -1], half_size: [15 mm], velocity: {y: {ramp: "
+        "  press: {point: [0, 60.01 mm], normal: [0, -1], half_size: [15 mm], velocity: {y: {ramp: "
         "-0.7 m/s, over: 0.05 ms}}, friction: 0.2}\n"
-        "  anvil: {point: [0, 0], normal: [0, 1], friction: 0.2}\n"
+        "  anvil: {point: [0, -0.01 mm], normal: [0, 1], friction: 0.2}\n"
         "history_every: 10 us\n"
         "probes:\n"
         "  stress: {group: body, quantity: stress, component: yy}\n"

@@ -31,19 +31,36 @@ static double value_at(const cdem_table *table, int64_t row, int column) {
   return value->absent ? NAN : value->real;
 }
 
+/* The largest number of the columns of one dimension: a column of what cancels, such as the error
+ * of an energy book, is small beside what it is made of. */
+static double largest_of_kind(const cdem_table *table, cdem_dimension dimension) {
+  const cdem_dimension none = CDEM_DIMENSIONLESS;
+  double largest = memcmp(&dimension, &none, sizeof none) == 0 ? 1.0 : 0.0;
+  for (int c = 0; c < table->columns; c++) {
+    cdem_dimension own;
+    bool like = cdem_dimension_of_unit(table->column[c].unit, &own) &&
+                memcmp(&own, &dimension, sizeof own) == 0;
+    for (int64_t r = 0; like && r < table->rows; r++)
+      largest = fmax(largest, fabs(value_at(table, r, c))); /* passes over NaN */
+  }
+  return largest;
+}
+
 static void compare_column(const cdem_table *one, const cdem_table *other, int c, double factor,
-                           cdem_scaling_difference *d) {
-  double apart = 0.0, largest = 0.0;
+                           double largest, cdem_scaling_difference *d) {
+  double apart = 0.0;
   for (int64_t r = 0; r < one->rows; r++) {
     double a = value_at(one, r, c) * factor, b = value_at(other, r, c);
     d->numbers++;
-    if (!same(a, b))
-      note_off(d, "%s, row %lld: %.17g and %.17g", one->column[c].name, r, a, b);
-    apart = isnan(a) != isnan(b) ? INFINITY : isnan(a) ? apart : fmax(apart, fabs(a - b));
-    largest = isnan(a) ? largest : fmax(largest, fabs(a));
+    if (same(a, b))
+      continue;
+    note_off(d, "%s, row %lld: %.17g and %.17g", one->column[c].name, r, a, b);
+    apart = isnan(a) || isnan(b) ? INFINITY : fmax(apart, fabs(a - b) / largest);
   }
-  if (apart > 0.0)
-    d->apart = fmax(d->apart, apart / largest);
+  if (apart > d->apart) {
+    d->apart = apart;
+    snprintf(d->worst, sizeof d->worst, "%s", one->column[c].name);
+  }
 }
 
 static cdem_status compare_histories(const cdem_table *one, const cdem_table *other,
@@ -59,7 +76,8 @@ static cdem_status compare_histories(const cdem_table *one, const cdem_table *ot
     CDEM_REQUIRE(cdem_dimension_of_unit(one->column[c].unit, &dimension), fault, CDEM_NUMERIC,
                  "the column '%s' has the unit '%s', whose dimension is not known",
                  one->column[c].name, one->column[c].unit);
-    compare_column(one, other, c, cdem_ratio(ratios, dimension), d);
+    double factor = cdem_ratio(ratios, dimension);
+    compare_column(one, other, c, factor, factor * largest_of_kind(one, dimension), d);
   }
   return CDEM_OK;
 }

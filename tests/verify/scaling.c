@@ -22,6 +22,7 @@ static void check_bits(cdem_scaling_case which, cdem_ratios ratios) {
     check_bits(which, (cdem_ratios){2.0, 4.0, 8.0});                                               \
     check_bits(which, (cdem_ratios){4.0, 2.0, 128.0});                                             \
   }
+BITS(body, CDEM_SCALING_BODY)
 BITS(fracture, CDEM_SCALING_FRACTURE)
 BITS(solid, CDEM_SCALING_SOLID)
 BITS(spheres, CDEM_SCALING_SPHERES)
@@ -32,9 +33,9 @@ BITS(footing, CDEM_SCALING_FOOTING)
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(fracture), cmocka_unit_test(solid), cmocka_unit_test(spheres),
-      cmocka_unit_test(hertz),    cmocka_unit_test(discs), cmocka_unit_test(at_rest),
-      cmocka_unit_test(footing),
+      cmocka_unit_test(body),    cmocka_unit_test(fracture), cmocka_unit_test(solid),
+      cmocka_unit_test(spheres), cmocka_unit_test(hertz),    cmocka_unit_test(discs),
+      cmocka_unit_test(at_rest), cmocka_unit_test(footing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
