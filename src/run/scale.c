@@ -43,12 +43,27 @@ static bool same_folder(const char *one, const char *other) {
   return same;
 }
 
+/* The scaled case must not take the place of its original. */
+static bool same_file(const char *one, const char *other) {
+  char *a = realpath(one, NULL), *b = realpath(other, NULL);
+  bool same = a != NULL && b != NULL && strcmp(a, b) == 0;
+  free(a);
+  free(b);
+  return same;
+}
+
 static cdem_status read_case(scaling_job *job, cdem_fault *fault) {
   const cdem_scale_options *o = job->options;
   cdem_case first = {0};
+  CDEM_REQUIRE(o->output == NULL || !same_file(o->path, o->output), fault, CDEM_USAGE,
+               "'%s' is the case itself; give the scaled one another name with -o", o->output);
   CDEM_TRY(cdem_read_case(o->path, o->overrides, o->override, &first, fault));
   cdem_status status = CDEM_OK;
-  if (o->output != NULL && !same_folder(o->path, o->output))
+  if (o->output != NULL && strcmp(o->output, "-") == 0 && cdem_case_given(&first, "grains.file"))
+    status = cdem_case_fail(&first, "grains.file", CDEM_INPUT, fault,
+                            "the table of grains is scaled into a file beside the case; name the "
+                            "case with -o");
+  if (status == CDEM_OK && o->output != NULL && !same_folder(o->path, o->output))
     status = cdem_case_settle_files(&first, o->overrides, o->override, fault);
   if (status == CDEM_OK)
     status = cdem_read_case_text(o->path, first.source, &job->cases, fault);
@@ -126,10 +141,6 @@ static cdem_status name_grains(scaling_job *job, cdem_fault *fault) {
   const char *output = job->options->output;
   if (!cdem_case_given(&job->cases, "grains.file") || output == NULL)
     return CDEM_OK;
-  if (strcmp(output, "-") == 0)
-    return cdem_case_fail(&job->cases, "grains.file", CDEM_INPUT, fault,
-                          "the table of grains is scaled into a file beside the case; name the "
-                          "case with -o");
   const char *slash = strrchr(output, '/'), *name = slash != NULL ? slash + 1 : output;
   const char *dot = strrchr(name, '.');
   int stem = dot != NULL && dot != name ? (int)(dot - output) : (int)strlen(output);
@@ -137,10 +148,17 @@ static cdem_status name_grains(scaling_job *job, cdem_fault *fault) {
   CDEM_REQUIRE(used > 0 && (size_t)used < sizeof job->grains, fault, CDEM_INPUT,
                "the name '%.40s...' is too long", output);
   name = job->grains + (name - output);
-  job->grains_name = cdem_allocate((int64_t)strlen(name) + 3, 1, fault);
+  job->grains_name = cdem_allocate(2 * (int64_t)strlen(name) + 3, 1, fault);
   if (job->grains_name == NULL)
     return CDEM_MEMORY;
-  sprintf(job->grains_name, "'%s'", name);
+  char *at = job->grains_name;
+  *at++ = '\'';
+  for (; *name != '\0'; name++) { /* YAML doubles an apostrophe */
+    *at++ = *name;
+    if (*name == '\'')
+      *at++ = *name;
+  }
+  strcpy(at, "'");
   return CDEM_OK;
 }
 
