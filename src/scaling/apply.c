@@ -244,12 +244,34 @@ static cdem_status check_coarse(const applying *a) {
                         "leave --coarse-grain out to scale all of it");
 }
 
+/* A relaxation of a body has fictitious masses and a step of 1 s, whatever its size: a clock of its
+ * own. What is given in seconds, or per second, would have to scale with it. */
+static cdem_status check_clock(const applying *a) {
+  const cdem_case_places *places = a->cases->places;
+  if (a->cases->values.analysis != CDEM_ANALYSIS_RELAXATION || cdem_case_has_grains(a->cases) ||
+      a->scaling->ratios.time == 1.0)
+    return CDEM_OK;
+  for (int64_t i = 0; i < places->quantities; i++) {
+    const cdem_case_quantity *q = &places->quantity[i];
+    bool timed = q->dimension.mass == 0 && (q->dimension.time == 1 || q->dimension.time == -1);
+    if (timed && q->value != 0.0)
+      return cdem_case_fail(a->cases, q->key, CDEM_INPUT, a->fault,
+                            "a relaxation of a body counts its steps as seconds, whatever its "
+                            "size, so that '%s' cannot be scaled; leave it out, or let 'analysis' "
+                            "be dynamic",
+                            q->key);
+  }
+  return CDEM_OK;
+}
+
 cdem_status cdem_scaling_apply(const cdem_case *cases, const cdem_scaling *scaling,
                                const cdem_scaling_columns *columns, cdem_scaled_list *list,
                                cdem_fault *fault) {
   cdem_scaled_list made = {0};
   applying a = {cases, scaling, columns, &made, CDEM_OK, fault};
   a.status = scaling->coarse ? check_coarse(&a) : CDEM_OK;
+  if (a.status == CDEM_OK)
+    a.status = check_clock(&a);
   if (a.status == CDEM_OK)
     a.status = scale_numbers(&a);
   if (a.status == CDEM_OK)

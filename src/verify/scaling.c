@@ -39,6 +39,7 @@ static const cdem_verification checks[] = {
     BITS("spheres in a cell, Hertz", CDEM_SCALING_HERTZ),
     BITS("discs, linear with rolling", CDEM_SCALING_DISCS),
     BITS("static Cosserat body", CDEM_SCALING_STATIC),
+    BITS("bonded spheres, relaxed", CDEM_SCALING_BONDED),
     BITS("grains in a Cosserat medium", CDEM_SCALING_FOOTING),
     /* No power of two: rounding, which grows by collisions and cracks; so without them, or short.
      */

@@ -46,6 +46,7 @@ typedef enum {
   CDEM_SCALING_HERTZ,    /* Hertz, periodic cell with a servo */
   CDEM_SCALING_DISCS,    /* linear with rolling, compacted, walls with a servo */
   CDEM_SCALING_STATIC,   /* Cosserat, static */
+  CDEM_SCALING_BONDED,   /* bonded spheres, relaxed */
   CDEM_SCALING_FOOTING,  /* grains in a Cosserat medium */
   CDEM_SCALING_CASES
 } cdem_scaling_case;

@@ -129,6 +129,20 @@ const char *const cdem_scaling_text[CDEM_SCALING_CASES] = {
         "  - {group: y1, pressure: 0.3 MPa}\n"
         "probes: {tip: {group: x1, quantity: displacement, component: y}, stress: {group: body, "
         "quantity: stress, component: xy}}\n",
+    [CDEM_SCALING_BONDED] =
+        "analysis: relaxation\n"
+        "gravity: [0, 0, -9.81 m/s2]\n"
+        "grains:\n"
+        "  dimension: 3\n"
+        "  rolling: spring\n"
+        "  twisting: spring\n"
+        "  packing: {kind: cubic, high: [60 mm, 60 mm, 60 mm], radius: 5 mm}\n"
+        "  materials: {sand: {density: 2600 kg/m3}}\n"
+        "contacts: [{normal_stiffness: 1e5 N/m, friction: 0.4, damping_ratio: 0.2, "
+        "rolling_friction: 0.1, twisting_friction: 0.1}]\n"
+        "walls: {floor: {shape: plane, center: [0, 0, 0], normal: [0, 0, 1]}}\n"
+        "bonds: [{normal_stiffness: 1e5 N/m, shear_stiffness: 3e4 N/m, rolling_stiffness: 1 N m, "
+        "twisting_stiffness: 1 N m, tension: 0.01 N, cohesion: 0.02 N, damping_ratio: 0.1}]\n",
     [CDEM_SCALING_FOOTING] =
         "end: 3 ms\n"
         "step: 20 us\n"

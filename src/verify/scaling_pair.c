@@ -99,10 +99,10 @@ static int64_t first_off(const double *a, const double *b, int64_t count) {
   int power[QUANTITIES], powers = 0;
   for (int64_t i = 0; i < count; i++) {
     int n = 0, k = 0;
+    if (memcmp(&a[i], &b[i], sizeof a[i]) == 0) /* whole numbers of a record, too */
+      continue;
     if (!find_power(a[i], b[i], &n))
       return i;
-    if (a[i] == 0.0 || !isfinite(a[i]))
-      continue;
     while (k < powers && power[k] != n)
       k++;
     if (k == QUANTITIES)
@@ -125,8 +125,9 @@ static void compare_arrays(const cdem_array *a, const cdem_array *b, cdem_scalin
     return;
   }
   d->numbers += a->count;
-  if (a->type == CDEM_ARRAY_REAL) {
-    int64_t at = first_off(a->data, b->data, a->count);
+  bool records = a->type == CDEM_ARRAY_BYTE && a->count % (int64_t)sizeof(double) == 0;
+  if (a->type == CDEM_ARRAY_REAL || records) { /* bytes: records of numbers */
+    int64_t at = first_off(a->data, b->data, records ? a->count / 8 : a->count);
     if (at >= 0)
       note_off(d, "array %s, number %lld: %.17g and %.17g", a->name, at,
                ((const double *)a->data)[at], ((const double *)b->data)[at]);

@@ -308,6 +308,9 @@ static void what_cannot_scale_is_refused(void **state) {
   check_refused("end: 1\ngrains: {dimension: 2, file: g.csv, materials: {s: {density: "
                 "1}}}\ncontacts: [{friction: 0}]\n",
                 cdem_scaling_coarse(2.0, 2), NULL, "case.yaml:2:30: grains of a file cannot be");
+  check_refused("analysis: relaxation\nmesh: a.msh\n" ROCK
+                "supports: [{group: g, displacement: {y: {ramp: 1, over: 5}}}]\n",
+                twice, NULL, "case.yaml:4:23: a relaxation of a body counts its steps as seconds");
   check_refused("end: 1e300\nmesh: a.msh\n" ROCK, cdem_scaling_exact((cdem_ratios){1.0, 1e9, 1.0}),
                 NULL, "case.yaml:1:6:");
   check_refused("end: 1\nmesh: a.msh\n" ROCK "results: {r: {of: odd, reference: 1}}\n", twice, &odd,

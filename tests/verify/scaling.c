@@ -29,13 +29,14 @@ BITS(spheres, CDEM_SCALING_SPHERES)
 BITS(hertz, CDEM_SCALING_HERTZ)
 BITS(discs, CDEM_SCALING_DISCS)
 BITS(at_rest, CDEM_SCALING_STATIC)
+BITS(bonded, CDEM_SCALING_BONDED)
 BITS(footing, CDEM_SCALING_FOOTING)
 
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(body),    cmocka_unit_test(fracture), cmocka_unit_test(solid),
       cmocka_unit_test(spheres), cmocka_unit_test(hertz),    cmocka_unit_test(discs),
-      cmocka_unit_test(at_rest), cmocka_unit_test(footing),
+      cmocka_unit_test(at_rest), cmocka_unit_test(bonded),   cmocka_unit_test(footing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
