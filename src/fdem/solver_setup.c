@@ -60,9 +60,19 @@ cdem_status cdem_fdem_check(const cdem_fdem_options *o, cdem_fault *fault) {
 
 /* ---- memory ---- */
 
+/* Members first .. end of one template, in blocks. */
+static void cut(cdem_fdem_store *s, int shape, int64_t first, int64_t end) {
+  int64_t size = (end - first + CDEM_FDEM_BLOCKS - 1) / CDEM_FDEM_BLOCKS;
+  size = size < CDEM_FDEM_BLOCK_LEAST ? CDEM_FDEM_BLOCK_LEAST : size;
+  size = size > CDEM_FDEM_BLOCK_MOST ? CDEM_FDEM_BLOCK_MOST : size;
+  for (int64_t m = first; m < end; m += size)
+    s->block[s->blocks++] = (cdem_fdem_block){
+        .shape = shape, .first = (int32_t)m, .count = (int32_t)(end - m < size ? end - m : size)};
+}
+
 /* Members by template, and where their nodes and amplitudes begin. */
 static cdem_status order(cdem_fdem_store *s, cdem_fault *fault) {
-  int64_t members = 0, most_blocks = s->grains / CDEM_FDEM_BLOCK + s->options.shapes;
+  int64_t members = 0, most_blocks = s->grains / CDEM_FDEM_BLOCK_LEAST + s->options.shapes;
   CDEM_NEW(s->first, s->grains + 1, fault);
   CDEM_NEW(s->mode, s->grains, fault);
   CDEM_NEW(s->member, s->grains, fault);
@@ -78,11 +88,7 @@ static cdem_status order(cdem_fdem_store *s, cdem_fault *fault) {
         s->mode[g] = s->amplitudes;
         s->amplitudes += s->options.shape[t].modes;
       }
-    for (int64_t m = begin; m < members; m += CDEM_FDEM_BLOCK) {
-      int64_t count = members - m < CDEM_FDEM_BLOCK ? members - m : CDEM_FDEM_BLOCK;
-      s->block[s->blocks++] =
-          (cdem_fdem_block){.shape = t, .first = (int32_t)m, .count = (int32_t)count};
-    }
+    cut(s, t, begin, members);
   }
   return CDEM_OK;
 }
@@ -124,8 +130,8 @@ static cdem_status scratch(cdem_fdem_store *s, cdem_fault *fault) {
   }
   CDEM_NEW(s->work, s->threads, fault);
   for (int t = 0; t < s->threads; t++) {
-    CDEM_NEW(s->work[t].skin, CDEM_FDEM_BLOCK * rows, fault);
-    CDEM_NEW(s->work[t].load, CDEM_FDEM_BLOCK * modes, fault);
+    CDEM_NEW(s->work[t].skin, CDEM_FDEM_BLOCK_MOST * rows, fault);
+    CDEM_NEW(s->work[t].load, CDEM_FDEM_BLOCK_MOST * modes, fault);
   }
   return CDEM_OK;
 }

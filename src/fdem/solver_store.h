@@ -4,8 +4,10 @@
 
 #include "fdem/store.h"
 
-/* Grains of one template side by side: what one product works on. */
-enum { CDEM_FDEM_BLOCK = 32 };
+/* Grains of one template side by side: what one product works on. Large blocks pay for laying out
+ * the matrix, small ones give many threads something to do; their size follows from the number of
+ * grains alone. */
+enum { CDEM_FDEM_BLOCK_LEAST = 32, CDEM_FDEM_BLOCK_MOST = 128, CDEM_FDEM_BLOCKS = 16 };
 typedef struct {
   int32_t shape, first, count; /* members first .. first + count - 1 */
 } cdem_fdem_block;
