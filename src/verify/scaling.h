@@ -15,8 +15,12 @@
                  power of two */                                                                   \
   X(rounding) /* case: h = 3, largest difference of the histories by the largest value of the same \
                  unit */                                                                           \
-  X(ratios)   /* table 1 of the source and what follows from it: worst relative error of the       \
-                 factors, h = 3 */
+  X(window) /* coarse graining by 2 of a cubic lattice that is pressed together: 0 its stress over \
+               the closed form, 1 that of the coarse one over it, 2 without the rule, 3 Hertz      \
+               without the rule, 4 steps of the coarse one over its own, 5 the same at the same    \
+               rate */                                                                             \
+  X(ratios) /* table 1 of the source and what follows from it: worst relative error of the         \
+               factors, h = 3 */
 
 #define X(name)                                                                                    \
   cdem_status cdem_scaling_measure_##name(int parameter, double *value, cdem_fault *fault);
@@ -37,6 +41,10 @@ typedef struct {
  * array, or for each component of an array of vectors (bits: powers of two alone). */
 cdem_status cdem_scaling_pair(const char *text, const cdem_ratios *ratios, bool bits,
                               cdem_scaling_difference *difference, cdem_fault *fault);
+
+/* The last value of a column of the history: of the case, and of its scaled copy. */
+cdem_status cdem_scaling_last(const char *text, cdem_scaling scaling, const char *column,
+                              double value[2], cdem_fault *fault);
 
 typedef enum {
   CDEM_SCALING_BODY,     /* one elastic body under loads that vary in time, 2-D */

@@ -176,19 +176,51 @@ static cdem_status run_one(const char *scratch, const char *name, remains *left,
   return cdem_read_state(path, &left->state, fault);
 }
 
-static cdem_status run_both(const char *scratch, const char *text, const cdem_ratios *ratios,
-                            remains left[2], cdem_fault *fault) {
+/* original.yaml and scaled.yaml. */
+static cdem_status write_both(const char *scratch, const char *text, cdem_scaling scaling,
+                              cdem_fault *fault) {
   char path[96], scaled[96];
   cdem_scaled_table table = {0};
   snprintf(path, sizeof path, "%s/original.yaml", scratch);
   snprintf(scaled, sizeof scaled, "%s/scaled.yaml", scratch);
   CDEM_TRY(write_case(path, text, fault));
-  const cdem_scale_options options = {
-      .path = path, .output = scaled, .scaling = cdem_scaling_exact(*ratios)};
+  const cdem_scale_options options = {.path = path, .output = scaled, .scaling = scaling};
   CDEM_TRY(cdem_scale_case(&options, &table, fault));
   cdem_scaled_table_release(&table);
+  return CDEM_OK;
+}
+
+static cdem_status run_both(const char *scratch, const char *text, cdem_scaling scaling,
+                            remains left[2], cdem_fault *fault) {
+  CDEM_TRY(write_both(scratch, text, scaling, fault));
   CDEM_TRY(run_one(scratch, "original", &left[0], fault));
   return run_one(scratch, "scaled", &left[1], fault);
+}
+
+static void release(remains left[2]) {
+  for (int i = 0; i < 2; i++) {
+    cdem_table_release(&left[i].history);
+    cdem_state_release(&left[i].state);
+  }
+}
+
+cdem_status cdem_scaling_last(const char *text, cdem_scaling scaling, const char *column,
+                              double value[2], cdem_fault *fault) {
+  char scratch[64];
+  remains left[2] = {{.history = {0}}, {.history = {0}}};
+  CDEM_TRY(cdem_make_scratch(scratch, fault));
+  cdem_status status = run_both(scratch, text, scaling, left, fault);
+  cdem_remove_scratch(scratch);
+  for (int i = 0; i < 2 && status == CDEM_OK; i++) {
+    const cdem_table *history = &left[i].history;
+    int c = cdem_table_find(history, column);
+    if (c < 0 || history->rows == 0)
+      status = cdem_fail(fault, CDEM_NUMERIC, "there is no column '%s'", column);
+    else
+      value[i] = value_at(history, history->rows - 1, c);
+  }
+  release(left);
+  return status;
 }
 
 cdem_status cdem_scaling_pair(const char *text, const cdem_ratios *ratios, bool bits,
@@ -197,16 +229,13 @@ cdem_status cdem_scaling_pair(const char *text, const cdem_ratios *ratios, bool 
   remains left[2] = {{.history = {0}}, {.history = {0}}};
   cdem_scaling_difference d = {0};
   CDEM_TRY(cdem_make_scratch(scratch, fault));
-  cdem_status status = run_both(scratch, text, ratios, left, fault);
+  cdem_status status = run_both(scratch, text, cdem_scaling_exact(*ratios), left, fault);
   cdem_remove_scratch(scratch);
   if (status == CDEM_OK)
     status = compare_histories(&left[0].history, &left[1].history, ratios, &d, fault);
   if (status == CDEM_OK && bits)
     compare_states(&left[0].state, &left[1].state, &d);
-  for (int i = 0; i < 2; i++) {
-    cdem_table_release(&left[i].history);
-    cdem_state_release(&left[i].state);
-  }
+  release(left);
   if (status == CDEM_OK)
     *difference = d;
   return status;
