@@ -276,7 +276,7 @@ bool cdem_fdem_specimen(const cdem_fdem *fdem, cdem_specimen *now) {
   now->area = now->volume / now->height;
   now->axial = s->wall_force[3 * b->options.high + 2] / now->area;
   now->bottom = -s->wall_force[3 * b->options.low + 2] / now->area;
-  now->lateral = 0.5 * shape.push / now->volume;
+  now->lateral = shape.lateral;
   for (int32_t i = 0; i < b->membrane.nodes; i++)
     for (int64_t k = b->row[i]; k < b->row[i + 1]; k++)
       if (b->touch[k].touches) {

@@ -36,7 +36,7 @@ cdem_status cdem_run_deformable_frames(cdem_run_setup *run, int64_t index,
 /* deformable_triaxial.c: a triaxial test: its stages, its columns, and the frames of its membrane.
  */
 cdem_status cdem_run_deformable_advance(cdem_run_deformable *d, int64_t steps, cdem_fault *fault);
-void cdem_run_deformable_triaxial_columns(const cdem_run_deformable *d, cdem_run_row *row);
+void cdem_run_deformable_triaxial_columns(cdem_run_deformable *d, cdem_run_row *row);
 cdem_status cdem_run_deformable_membrane(const cdem_run_deformable *d, int64_t index,
                                          const cdem_frame_sink *sink, cdem_fault *fault);
 /* deformable_contacts.c: nodes that touch, put together to contacts of two grains or of a grain and

@@ -20,7 +20,7 @@ cdem_status cdem_run_deformable_advance(cdem_run_deformable *d, int64_t steps, c
   return cdem_fdem_steps(&d->fdem, steps, fault);
 }
 
-void cdem_run_deformable_triaxial_columns(const cdem_run_deformable *d, cdem_run_row *row) {
+void cdem_run_deformable_triaxial_columns(cdem_run_deformable *d, cdem_run_row *row) {
   cdem_run_specimen specimen = {0};
   cdem_specimen at = {0};
   if (!d->grains->has_triaxial)
