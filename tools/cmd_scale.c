@@ -228,23 +228,31 @@ static void print_table(const cdem_scaled_table *table) {
   }
 }
 
+static void put_number(const char *before, double value) {
+  fputs(before, stdout);
+  cdem_json_number(stdout, value);
+}
+
 static void print_json(const cdem_scaled_table *table) {
   static const char *const tags[] = {"none", "grain", "law", "domain"};
   const cdem_scaling *s = &table->scaling;
-  printf("{\n  \"kind\": \"%s\",\n  \"length\": %.17g,\n  \"time\": %.17g,\n  \"mass\": %.17g,\n",
-         s->coarse ? "coarse" : "exact", s->ratios.length, s->ratios.time, s->ratios.mass);
+  printf("{\n  \"kind\": \"%s\",\n", s->coarse ? "coarse" : "exact");
+  put_number("  \"length\": ", s->ratios.length);
+  put_number(",\n  \"time\": ", s->ratios.time);
+  put_number(",\n  \"mass\": ", s->ratios.mass);
   if (s->coarse)
-    printf("  \"rule\": %s,\n  \"keep_rate\": %s,\n", s->rule ? "true" : "false",
+    printf(",\n  \"rule\": %s,\n  \"keep_rate\": %s", s->rule ? "true" : "false",
            s->slow ? "false" : "true");
-  printf("  \"bits\": %s,\n  \"keys\": [",
+  printf(",\n  \"bits\": %s,\n  \"keys\": [",
          !s->coarse && cdem_ratios_are_exact(&s->ratios) ? "true" : "false");
   for (int64_t i = 0; i < table->rows; i++) {
     const cdem_scaled_row *row = &table->row[i];
     printf("%s\n    {\"key\": ", i > 0 ? "," : "");
     cdem_json_text(stdout, row->key);
-    printf(", \"dimension\": [%d, %d, %d], \"tag\": \"%s\", \"added\": %s, \"factor\": %.17g}",
-           row->dimension.length, row->dimension.time, row->dimension.mass, tags[row->tag],
-           row->added ? "true" : "false", row->factor);
+    printf(", \"dimension\": [%d, %d, %d], \"tag\": \"%s\", \"added\": %s", row->dimension.length,
+           row->dimension.time, row->dimension.mass, tags[row->tag], row->added ? "true" : "false");
+    put_number(", \"factor\": ", row->factor);
+    putchar('}');
   }
   printf("\n  ]\n}\n");
 }
