@@ -140,6 +140,8 @@ static cdem_status collect(const cdem_case *cases, named_file *named, int64_t *f
   CDEM_TRY(join(cases, values->mesh.file, named, files, fault));
   strcpy(named[*files].key, "grains.file");
   CDEM_TRY(join(cases, values->grains.file, named, files, fault));
+  strcpy(named[*files].key, "grains.deformable.file");
+  CDEM_TRY(join(cases, values->grains.deformable.file, named, files, fault));
   for (int64_t w = 0; w < values->walls.count; w++) {
     snprintf(named[*files].key, CDEM_CASE_PATH, "walls.%s.file", values->walls.item[w].name);
     CDEM_TRY(join(cases, values->walls.item[w].file, named, files, fault));
@@ -150,7 +152,7 @@ static cdem_status collect(const cdem_case *cases, named_file *named, int64_t *f
 cdem_status cdem_case_settle_files(cdem_case *cases, int overrides, const char *const *override,
                                    cdem_fault *fault) {
   int64_t files = 0;
-  named_file *named = cdem_allocate(cases->values.walls.count + 3, sizeof *named, fault);
+  named_file *named = cdem_allocate(cases->values.walls.count + 4, sizeof *named, fault);
   if (named == NULL)
     return CDEM_MEMORY;
   cdem_status status = collect(cases, named, &files, fault);
