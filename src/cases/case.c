@@ -195,6 +195,10 @@ bool cdem_case_is_coupled(const cdem_case *cases) {
   return cdem_case_given(cases, "coupling");
 }
 
+bool cdem_case_is_triaxial(const cdem_case *cases) {
+  return cdem_case_given(cases, "triaxial");
+}
+
 bool cdem_case_has_grains(const cdem_case *cases) {
   return cdem_case_given(cases, "grains");
 }

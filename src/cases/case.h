@@ -240,6 +240,26 @@ typedef struct {
   double servo_rate, servo_gain;
 } cdem_case_cell;
 
+/* triaxial: membrane: ; NaN: by dimensionless numbers (dem/membrane.h) */
+typedef struct {
+  double spacing, penalty, contact_damping;
+  double young, poisson, thickness, bending, damping;
+  double areal_density;
+  int edges; /* free clamped */
+} cdem_case_membrane;
+
+/* triaxial: */
+typedef struct {
+  double pressure;
+  int boundary;                 /* cdem_triaxial_boundary */
+  double consolidation;         /* s; NaN: by dimensionless numbers */
+  double rate, inertial_number; /* 1/s, -; NaN: the other one, 1e-3 */
+  double strain;
+  char *material; /* NULL: the first */
+  cdem_case_membrane membrane;
+} cdem_case_triaxial;
+enum { CDEM_TRIAXIAL_MEMBRANE, CDEM_TRIAXIAL_CYLINDER }; /* the choices of `boundary` */
+
 /* probes: NAME: region: of grains, coupling: regions: - ; low >= high in a direction: all of it */
 typedef struct {
   double low[3], high[3];
@@ -271,7 +291,7 @@ typedef struct {
   char *group;   /* of a body */
   int quantity;  /* displacement velocity force stress; force is the sum, others means over the
                     group;  of grains: velocity stress count mass solid coordination surface_angle
-                    center stress_ratio */
+                    center stress_ratio ...; see the enum */
   int component; /* x y z rotation, xx yy zz yz xz xy, magnitude */
   cdem_case_region region; /* of grains */
   int surface;             /* cdem_surface_kind */
@@ -290,7 +310,13 @@ enum { /* the choices of `quantity` */
        CDEM_PROBE_CENTER,
        CDEM_PROBE_STRESS_RATIO,
        CDEM_PROBE_BAND_ANGLE,
-       CDEM_PROBE_BAND_SLENDERNESS
+       CDEM_PROBE_BAND_SLENDERNESS,
+       CDEM_PROBE_MEAN_PUSH,
+       CDEM_PROBE_BOUNDARY_PUSH,
+       CDEM_PROBE_FABRIC,
+       CDEM_PROBE_ANISOTROPY,
+       CDEM_PROBE_MECHANICAL_COORDINATION,
+       CDEM_PROBE_RATTLERS
 };
 
 /* curves: NAME: a figure drawn from history.csv */
@@ -335,12 +361,13 @@ typedef enum {
 
 typedef struct {
   char *title;
-  int analysis;        /* cdem_analysis */
-  int plane;           /* strain stress */
-  double thickness;    /* m */
-  bool cosserat;       /* no key: whether the materials are Cosserat */
-  double end;          /* s; static: the time at which loads and supports are taken, 0 */
-  double step, safety; /* s; NaN: automatic */
+  int analysis;     /* cdem_analysis */
+  int plane;        /* strain stress */
+  double thickness; /* m */
+  bool cosserat;    /* no key: whether the materials are Cosserat */
+  double end;       /* s; static: the time at which loads and supports are taken, 0; triaxial: NaN,
+                       found by the run */
+  double step, safety;                /* s; NaN: automatic */
   double mass_damping, local_damping; /* 1/s; 1. Read: local 0.8 in a relaxation unless given */
   double tolerance;                   /* unbalanced-force ratio of a relaxation */
   int64_t most_steps;                 /* of a relaxation */
@@ -364,6 +391,7 @@ typedef struct {
   CDEM_CASE_LIST(cdem_case_bond) bonds;
   cdem_case_cell cell;
   cdem_case_coupling coupling;
+  cdem_case_triaxial triaxial;
   CDEM_CASE_LIST(cdem_case_initial) initial;
   CDEM_CASE_LIST(cdem_case_probe) probes;
   CDEM_CASE_LIST(cdem_case_curve) curves;
@@ -387,6 +415,7 @@ bool cdem_case_given(const cdem_case *cases, const char *key);
 /* A case is of grains, of a body, or of both. */
 bool cdem_case_has_grains(const cdem_case *cases);
 bool cdem_case_is_coupled(const cdem_case *cases);
+bool cdem_case_is_triaxial(const cdem_case *cases);
 
 /* Is direction 0, 1, 2 among the texts x, y, z? */
 bool cdem_case_names_direction(const cdem_case_texts *directions, int direction);

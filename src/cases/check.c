@@ -50,7 +50,7 @@ static cdem_status check_analysis(const cdem_case *cases, cdem_fault *fault) {
     return cdem_case_fail(cases, "analysis", CDEM_INPUT, fault,
                           "a coupled run goes through time: let 'analysis' be dynamic");
   if (v->analysis == CDEM_ANALYSIS_DYNAMIC) {
-    if (isnan(v->end))
+    if (isnan(v->end) && !cdem_case_is_triaxial(cases))
       return cdem_case_fail(cases, "analysis", CDEM_INPUT, fault,
                             "a dynamic run needs 'end', the time at which it ends");
     return check_foreign(cases, "dynamic", solved, 2, fault);
@@ -75,6 +75,7 @@ static cdem_status check_contact(const cdem_case *cases, cdem_fault *fault) {
 
 cdem_status cdem_case_check(const cdem_case *cases, cdem_fault *fault) {
   CDEM_TRY(cdem_case_check_kind(cases, fault));
+  CDEM_TRY(cdem_case_check_triaxial(cases, fault));
   CDEM_TRY(check_analysis(cases, fault));
   CDEM_TRY(cdem_case_check_exclusive(cases, "", "step", "safety", fault));
   if (cdem_case_has_grains(cases)) {

@@ -33,6 +33,8 @@ cdem_status cdem_case_check_grains(const cdem_case *cases, cdem_fault *fault);
 cdem_status cdem_case_check_kind(const cdem_case *cases, cdem_fault *fault);
 /* check_coupling.c: grains inside a body. */
 cdem_status cdem_case_check_coupling(const cdem_case *cases, cdem_fault *fault);
+/* check_triaxial.c */
+cdem_status cdem_case_check_triaxial(const cdem_case *cases, cdem_fault *fault);
 /* check_walls.c */
 cdem_status cdem_case_check_walls(const cdem_case *cases, cdem_fault *fault);
 cdem_status cdem_case_check_cell(const cdem_case *cases, cdem_fault *fault);

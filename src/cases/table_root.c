@@ -21,7 +21,7 @@ static const cdem_case_key keys[] = {
     {TOP(thickness), .kind = CDEM_KEY_NUMBER, .dimension = LENGTH, .fallback = 1, POSITIVE, DOMAIN,
      .help = "Thickness of a 2-D body, or of discs. No meaning in 3-D.", .example = "50 mm"},
     {TOP(end), .kind = CDEM_KEY_NUMBER, .dimension = TIME, .fallback = NAN, POSITIVE, DOMAIN,
-     .otherwise = "required by a dynamic run; static: loads are taken at 0 s",
+     .otherwise = "required by a dynamic run but a triaxial test; static: loads are taken at 0 s",
      .help = "Time at which the run ends; in a static run the time at which loads and supports are "
              "taken.",
      .example = "10 ms"},
@@ -126,6 +126,12 @@ static const cdem_case_key keys[] = {
      .help =
          "Grains inside a body: a coarse medium (mesh, materials) around a fine region of grains.",
      .example = "{regions: [{low: [-3.5 m, -3.5 m], high: [3.5 m, 0]}], cycles: 10}"},
+    {TOP(triaxial), .kind = CDEM_KEY_SECTION, .section = &cdem_section_triaxial,
+     .otherwise = "none",
+     .help =
+         "A triaxial test of the cylinder of grains: consolidation under a pressure, then shear "
+         "by the upper plate.",
+     .example = "{pressure: 0.9 MPa, strain: 0.15}"},
     {TOP(initial), .kind = CDEM_KEY_LIST, .section = &cdem_section_initial, .otherwise = "at rest",
      .help = "Velocities at the start.",
      .example = "[{groups: projectile, velocity: [10 m/s, 0]}]"},

@@ -58,6 +58,7 @@ extern const cdem_case_section cdem_section_mesh, cdem_section_materials, cdem_s
     cdem_section_interfaces, cdem_section_contact, cdem_section_supports, cdem_section_loads,
     cdem_section_plates, cdem_section_initial, cdem_section_probes, cdem_section_curves,
     cdem_section_results, cdem_section_grains, cdem_section_contacts, cdem_section_walls,
-    cdem_section_bonds, cdem_section_cell, cdem_section_region, cdem_section_coupling;
+    cdem_section_bonds, cdem_section_cell, cdem_section_region, cdem_section_coupling,
+    cdem_section_triaxial;
 
 #endif

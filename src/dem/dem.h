@@ -3,6 +3,7 @@
  *     grains.h    what a model starts from        packing.h   how to make it
  *     law.h       contact laws, one file each     bonds.h     grains held together
  *     walls.h     rigid walls                     cell.h      periodic cell
+ *     membrane.h  around a specimen           confinement.h  a specimen between plates
  *     dem.h       the solver (this file)          measures.h  stress, strain, fabric, fields
  *     surface.h   free surface, profiles, counts  pictures.h  grains, chains, arrows as maps
  *     frames.h    grains and contacts on their way to a file
@@ -24,6 +25,7 @@
 
 #include "dem/bonds.h"
 #include "dem/cell.h"
+#include "dem/confinement.h"
 #include "dem/grains.h"
 #include "dem/law.h"
 #include "dem/walls.h"
@@ -44,11 +46,12 @@ typedef struct {
   const cdem_bond_law *bond_law;
   int64_t bonds;
   const cdem_bond *bond;
-  const cdem_cell *cell; /* NULL: not periodic */
-  double gravity[3];     /* m/s^2 */
-  double mass_damping;   /* c_m, 1/s, on velocity and spin */
-  double local_damping;  /* Cundall's alpha, 0 <= alpha < 1 */
-  double step;           /* s; 0: automatic. CDEM_INPUT when it is unstable */
+  const cdem_cell *cell;               /* NULL: not periodic */
+  const cdem_confinement *confinement; /* NULL: none */
+  double gravity[3];                   /* m/s^2 */
+  double mass_damping;                 /* c_m, 1/s, on velocity and spin */
+  double local_damping;                /* Cundall's alpha, 0 <= alpha < 1 */
+  double step;                         /* s; 0: automatic. CDEM_INPUT when it is unstable */
   /* Part of the largest stable step that the automatic step takes, 0 < safety <= 1; 0: 0.1, with
    * which a collision lasts some 16 steps and the energy book closes to 1e-3 or better (0.2: to
    * some 5e-3; errors go with its square). The automatic step follows the contacts: it is looked at
@@ -73,6 +76,8 @@ typedef struct {
                                                 mass and local damping; in bonds that broke */
   double gravity, walls, cell;    /* work of gravity, of moving walls, of the deforming cell */
   double driven, guided, applied; /* ... of driven grains, of guided ones, of `applied` */
+  double membrane;                /* of a membrane and its touches, kinetic too */
+  double pressure;                /* work of the pressure on it, and of the plates on its ends */
   double circulating;             /* work of forces that neither store nor dissipate */
   double initial;                 /* energy at the start */
   double error;                   /* stored and kinetic + dissipated - works - initial */
@@ -182,6 +187,13 @@ void cdem_dem_wall_now(const cdem_dem *dem, int wall, cdem_dem_wall *now);
 /* Replaces velocity and spin functions of a wall from now on (a new phase of a test). Borrowed. */
 void cdem_dem_wall_move(cdem_dem *dem, int wall, const cdem_series velocity[3],
                         const cdem_series spin[3]);
+/* The specimen as it is now; false: there is none. */
+bool cdem_dem_specimen(const cdem_dem *dem, cdem_specimen *now);
+/* Its membrane; NULL: none. */
+const cdem_membrane *cdem_dem_membrane(const cdem_dem *dem);
+/* From now on its high plate moves with this velocity along z, m/s; its servo is off. Part of the
+ * state: who restores need not call it again. */
+void cdem_dem_shear(cdem_dem *dem, double velocity);
 /* The cell as it is now; NULL: none. And the mean stress in it, Pa, tension positive, row-major. */
 const cdem_cell *cdem_dem_cell(const cdem_dem *dem);
 

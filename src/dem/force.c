@@ -1,6 +1,6 @@
 /* Forces of chunks: pairs by batches, then bonds, then walls; and what is summed over chunks. */
 #include "base/mat3.h"
-#include "dem/solver_store.h"
+#include "dem/confine.h"
 #include "dem/walls_store.h"
 
 #include <string.h>
@@ -244,6 +244,7 @@ static void wall_scatter(cdem_dem *dem, int32_t first, int count, cdem_dem_work 
       /* row_b holds a_B n x F_t - M with a_B = 0 */
       wall[3 + c] += work->row_b[k][3 + c] - turn[c];
     }
+    wall[7] -= cdem_dot3(row, t->n);
     for (int c = 0; c < 6; c++)
       f[c] += row[c];
     for (int h = 0; h < s->histories; h++)
@@ -315,7 +316,10 @@ void cdem_dem_work_half(cdem_dem *dem, double step) {
   for (int w = 0; w < s->options.walls; w++) {
     const double *f = core->wall_force + 6 * (int64_t)w;
     const cdem_wall_body *body = &s->walls->body[w];
-    core->wall_work -= 0.5 * step * (cdem_dot3(f, body->velocity) + cdem_dot3(f + 3, body->spin));
+    double power = cdem_dot3(f, body->velocity) + cdem_dot3(f + 3, body->spin);
+    if (body->wall.servo_radius)
+      power += core->wall_push[w] * body->radius_speed;
+    core->wall_work -= 0.5 * step * power;
   }
   if (s->pair_image != NULL)
     for (int k = 0; k < 27; k++)
@@ -328,10 +332,11 @@ static void sum_walls(cdem_dem *dem) {
   for (int w = 0; w < s->options.walls; w++) {
     double sum[8] = {0};
     for (int32_t c = 0; c < core->chunks; c++)
-      for (int k = 0; k < 7; k++)
+      for (int k = 0; k < 8; k++)
         sum[k] += core->wall_part[8 * ((int64_t)c * s->options.walls + w) + k];
     memcpy(core->wall_force + 6 * (int64_t)w, sum, 6 * sizeof *sum);
     core->wall_stiff[w] = sum[6];
+    core->wall_push[w] = sum[7];
   }
 }
 
@@ -360,6 +365,8 @@ void cdem_dem_force_after(cdem_dem *dem, double step) {
     sum_images(dem);
   if (s->options.energies && step > 0.0)
     cdem_dem_work_half(dem, step);
+  if (s->core->confine != NULL)
+    cdem_confine_after(dem, step);
   int32_t broke = 0;
   for (int32_t c = 0; s->core->bonds > 0 && c < s->core->chunks; c++) {
     broke += s->core->part[c].broke;
@@ -384,6 +391,8 @@ void cdem_dem_evaluate(cdem_dem *dem, double step) {
   else
     for (int32_t c = 0; c < core->chunks; c++)
       cdem_dem_force_chunk(dem, c, step, &core->work[0]);
+  if (core->confine != NULL)
+    cdem_confine_forces(dem);
   cdem_dem_force_after(dem, step);
   cdem_dem_gather(dem);
 }

@@ -176,6 +176,7 @@ static void wall(cdem_dem *dem, int32_t i, const cdem_wall_touch *t, double step
   }
   c.model->law->stiffness(&c.model->parameters[0], c.radius, c.mass, c.overlap, &normal, &shear,
                           dashpot);
+  s->core->wall_push[t->wall] -= cdem_dot3(out.force, t->n);
   s->core->wall_stiff[t->wall] += normal + (step > 0.0 ? dashpot[0] / step : 0.0);
 }
 
@@ -184,6 +185,7 @@ static void walls(cdem_dem *dem, double step, cdem_dem_part *part) {
   const int32_t *row = cdem_walls_rows(s);
   memset(s->core->wall_force, 0, (size_t)s->options.walls * 6 * sizeof(double));
   memset(s->core->wall_stiff, 0, (size_t)s->options.walls * sizeof(double));
+  memset(s->core->wall_push, 0, (size_t)s->options.walls * sizeof(double));
   for (int32_t i = 0; i < s->grains; i++) {
     cdem_wall_touch touch[CDEM_WALL_TOUCHES];
     int found = row[i] < row[i + 1] ? cdem_walls_find(s, i, touch) : 0;

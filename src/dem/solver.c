@@ -1,4 +1,4 @@
-#include "dem/solver_store.h"
+#include "dem/confine.h"
 
 #include <math.h>
 #include <omp.h>
@@ -61,6 +61,7 @@ static cdem_status allocate(cdem_dem *dem, cdem_fault *fault) {
   CDEM_NEW(core->wall_part, 8 * walls * core->chunks, fault);
   CDEM_NEW(core->wall_force, 6 * walls, fault);
   CDEM_NEW(core->wall_stiff, walls, fault);
+  CDEM_NEW(core->wall_push, walls, fault);
   CDEM_NEW(core->wall_center, 3 * walls, fault);
   core->works = core->threads;
   LINES(core->work, core->works);
@@ -107,6 +108,7 @@ void cdem_dem_release(cdem_dem *dem) {
         free(core->work[t].wall_model);
       }
       cdem_bonds_release(core);
+      cdem_confine_release(core);
       cdem_grains_release(&core->start);
       for (int b = 0; b < core->blocks; b++)
         free(core->block[b]);
@@ -123,6 +125,7 @@ void cdem_dem_release(cdem_dem *dem) {
       free(core->wall_part);
       free(core->wall_force);
       free(core->wall_stiff);
+      free(core->wall_push);
       free(core->wall_center);
       free(core);
     }
@@ -197,7 +200,8 @@ static cdem_status begin(const cdem_dem_options *options, cdem_dem *dem, cdem_fa
   for (int64_t i = 0; core->start.motion != NULL && i < s->grains; i++)
     core->driven |= core->start.motion[i] != CDEM_GRAIN_FREE;
   for (int w = 0; w < options->walls; w++)
-    core->servos |= cdem_dot3(options->wall[w].servo, options->wall[w].servo) > 0.0;
+    core->servos |= cdem_dot3(options->wall[w].servo, options->wall[w].servo) > 0.0 ||
+                    options->wall[w].servo_radius;
   CDEM_TRY(allocate(dem, fault));
   /* a team is worth it from a few chunks on */
   if (core->threads > core->chunks / 2)
@@ -232,11 +236,14 @@ static cdem_status init(const cdem_dem_options *options, cdem_dem *dem, cdem_fau
     CDEM_TRY(cdem_bonds_init(dem, fault));
   if (s->walls != NULL)
     CDEM_TRY(cdem_walls_check(s, fault));
+  CDEM_TRY(cdem_confine_init(dem, fault));
   CDEM_TRY(cdem_dem_rebuild(dem, true, fault));
   CDEM_TRY(cdem_dem_check_overlaps(dem, fault));
   cdem_dem_wall_centers(dem);
   cdem_dem_evaluate(dem, 0.0);
   CDEM_TRY(cdem_dem_first_step(dem, fault));
+  if (s->core->confine != NULL)
+    cdem_confine_calm(dem);
   cdem_dem_bulk(dem);
   cdem_dem_keep_seen(dem);
   for (int32_t i = 0; i < s->grains; i++) {
@@ -244,6 +251,8 @@ static cdem_status init(const cdem_dem_options *options, cdem_dem *dem, cdem_fau
     memcpy(now, cdem_motion(s, i), sizeof now);
     cdem_grain_set_before(dem, i, now);
   }
+  if (s->core->confine != NULL)
+    cdem_confine_change_step(dem, 0.0, dem->step);
   cdem_dem_book_start(dem);
   return CDEM_OK;
 }

@@ -1,6 +1,6 @@
 /* The energy book. Kinetic energy at t_n is m v_- v_+/2, works go by the trapezoid: with these the
  * book of linear forces closes to rounding but for the curvature of what they do within a step. */
-#include "dem/solver_store.h"
+#include "dem/confine.h"
 
 #include <math.h>
 #include <string.h>
@@ -113,13 +113,16 @@ static void fill(const cdem_dem *dem, cdem_dem_energies *e) {
   e->guided = sum[CDEM_DEM_GUIDED];
   e->applied = sum[CDEM_DEM_APPLIED];
   e->circulating = -sum[CDEM_DEM_CIRCULATED];
+  if (core->confine != NULL)
+    cdem_confine_energies(dem, e);
 }
 
 static double imbalance(const cdem_dem_energies *e) {
-  double stored = e->translation + e->rotation + e->normal + e->shear + e->moment + e->bond;
+  double stored =
+      e->translation + e->rotation + e->normal + e->shear + e->moment + e->bond + e->membrane;
   double dissipated = e->friction + e->rolling + e->damping + e->broken;
-  double works =
-      e->gravity + e->walls + e->cell + e->driven + e->guided + e->applied + e->circulating;
+  double works = e->gravity + e->walls + e->cell + e->driven + e->guided + e->applied +
+                 e->circulating + e->pressure;
   return stored + dissipated - works - e->initial;
 }
 
@@ -130,10 +133,10 @@ void cdem_dem_energies_now(cdem_dem *dem, cdem_dem_energies *e) {
     return;
   fill(dem, e);
   e->error = imbalance(e);
-  const double term[] = {e->translation, e->rotation,    e->normal,  e->shear,   e->moment,
-                         e->bond,        e->friction,    e->rolling, e->damping, e->broken,
-                         e->gravity,     e->walls,       e->cell,    e->driven,  e->guided,
-                         e->applied,     e->circulating, e->initial};
+  const double term[] = {e->translation, e->rotation,    e->normal,  e->shear,    e->moment,
+                         e->bond,        e->friction,    e->rolling, e->damping,  e->broken,
+                         e->gravity,     e->walls,       e->cell,    e->driven,   e->guided,
+                         e->applied,     e->circulating, e->initial, e->membrane, e->pressure};
   for (size_t k = 0; k < sizeof term / sizeof term[0]; k++)
     core->exchange = fmax(core->exchange, fabs(term[k]));
   e->exchange = core->exchange;

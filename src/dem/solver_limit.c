@@ -18,7 +18,7 @@
  * elastic one and that of its relative velocity, can press it to: from k ~ d^p, E = k
  * d^2/((1+p)(2+p)). At least 1/1000 of the reduced radius counts. What others press a contact to
  * beyond that is left to the safety: at 0.1 stiffness may grow to the 100-fold. */
-#include "dem/solver_store.h"
+#include "dem/confine.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -234,6 +234,15 @@ static void limits_release(limits *l) {
   free(l->touched);
 }
 
+/* A node of the membrane: along n only. */
+static void add_node(void *context, int32_t grain, double spring, double dashpot,
+                     const double n[3]) {
+  const limits *l = context;
+  const stiffness k = {.kn = spring, .dash = {dashpot, 0.0}};
+  double radius = cdem_place(l->dem->store, grain)[3];
+  add(&l->rows[grain], &k, 2.0, radius, radius, l->factor, n);
+}
+
 /* The rows of all grains. Released by the caller, after a failure too. */
 static cdem_status gather(const cdem_dem *dem, bool fresh, limits *l, cdem_fault *fault) {
   const cdem_dem_store *s = dem->store;
@@ -244,6 +253,8 @@ static cdem_status gather(const cdem_dem *dem, bool fresh, limits *l, cdem_fault
   add_bonds(l);
   if (s->walls != NULL)
     cdem_dem_visit_all(dem, add_touch, l);
+  if (s->core->confine != NULL)
+    cdem_confine_visit(dem, add_node, l);
   if (fresh)
     add_what_may_come(l);
   return CDEM_OK;
@@ -265,6 +276,8 @@ cdem_status cdem_dem_stiffness(const cdem_dem *dem, double *resists, double *tur
   limits_release(&l);
   return status;
 }
+
+enum { CDEM_LIMIT_MEMBRANE = -2 }; /* in place of a grain */
 
 static cdem_status find(const cdem_dem *dem, bool fresh, double *limit, int32_t *grain,
                         int32_t *contacts, cdem_fault *fault) {
@@ -294,6 +307,11 @@ static cdem_status find(const cdem_dem *dem, bool fresh, double *limit, int32_t 
     }
   }
   limits_release(&l);
+  double membrane = s->core->confine != NULL ? cdem_confine_limit(dem) : INFINITY;
+  if (membrane < *limit) {
+    *limit = membrane;
+    *grain = CDEM_LIMIT_MEMBRANE;
+  }
   return CDEM_OK;
 }
 
@@ -333,13 +351,19 @@ void cdem_dem_bulk(cdem_dem *dem) {
   core->response = 0.5 * sqrt(longest * (mass / volume) / core->bulk);
 }
 
+static void name_limiter(int32_t grain, int32_t contacts, char limiter[64]) {
+  limiter[0] = 0;
+  if (grain == CDEM_LIMIT_MEMBRANE)
+    snprintf(limiter, 64, "the nodes of the membrane");
+  else if (grain >= 0)
+    snprintf(limiter, 64, "grain %d with %d contact%s", grain, contacts, contacts == 1 ? "" : "s");
+}
+
 static cdem_status limit_now(const cdem_dem *dem, double *limit, char limiter[64],
                              cdem_fault *fault) {
   int32_t grain, contacts = 0;
-  limiter[0] = 0;
   CDEM_TRY(find(dem, true, limit, &grain, &contacts, fault));
-  if (grain >= 0)
-    snprintf(limiter, 64, "grain %d with %d contact%s", grain, contacts, contacts == 1 ? "" : "s");
+  name_limiter(grain, contacts, limiter);
   return CDEM_OK;
 }
 
@@ -397,6 +421,8 @@ void cdem_dem_change_step(cdem_dem *dem, double step) {
     dem->step = step;
     cdem_grain_set_before(dem, i, now);
   }
+  if (core->confine != NULL)
+    cdem_confine_change_step(dem, old, step);
   dem->step = step;
   cdem_dem_set_time(dem, dem->time);
   if (!s->options.energies)
@@ -427,15 +453,16 @@ cdem_status cdem_dem_relook(cdem_dem *dem, cdem_fault *fault) {
   const cdem_dem_options *o = &dem->store->options;
   cdem_dem_core *core = dem->store->core;
   double limit;
+  char limiter[64];
   int32_t grain, contacts = 0;
   core->wanted = 0.0;
   CDEM_TRY(find(dem, core->automatic, &limit, &grain, &contacts, fault));
   if (!core->automatic) {
+    name_limiter(grain, contacts, limiter);
     CDEM_REQUIRE(
         dem->step <= limit, fault, CDEM_NUMERIC,
-        "the time step %.4g s has become unstable at t = %.6g s: the limit is %.4g s, from "
-        "grain %d with %d contacts",
-        dem->step, dem->time, limit, grain, contacts);
+        "the time step %.4g s has become unstable at t = %.6g s: the limit is %.4g s, from %s",
+        dem->step, dem->time, limit, limiter);
     return CDEM_OK;
   }
   double wanted = o->safety * limit;

@@ -1,5 +1,5 @@
 /* What follows from a new list of candidates: owners, far rows, bonds, room for the threads. */
-#include "dem/solver_store.h"
+#include "dem/confine.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -131,5 +131,7 @@ cdem_status cdem_dem_rebuild(cdem_dem *dem, bool sort, cdem_fault *fault) {
     CDEM_TRY(cdem_bonds_carry(dem, fault));
   if (s->walls != NULL)
     CDEM_TRY(cdem_walls_build(s, fault));
+  if (s->core->confine != NULL)
+    CDEM_TRY(cdem_confine_build(dem, fault));
   return cdem_dem_lists(dem, fault);
 }

@@ -3,7 +3,7 @@
  * The list of pairs is saved as it is. The candidates of walls are built again, with twice the
  * skin: they hold all that may touch until the next build, which comes when it would have come.
  * Which candidates do not touch changes no bit. */
-#include "dem/solver_store.h"
+#include "dem/confine.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +15,7 @@ typedef struct {
   void *data;
 } entry;
 
-enum { ENTRIES = 24, REALS = 16 + CDEM_DEM_SUMS, COUNTS = 6 };
+enum { ENTRIES = 26, REALS = 16 + CDEM_DEM_SUMS, COUNTS = 6 };
 
 static int list_arrays(const cdem_dem *dem, entry list[ENTRIES]) {
   const cdem_dem_store *s = dem->store;
@@ -42,6 +42,7 @@ static int list_arrays(const cdem_dem *dem, entry list[ENTRIES]) {
     list[k++] = (entry){"dem/applied", CDEM_ARRAY_REAL, 6 * n, dem->applied};
   list[k++] = (entry){"dem/wall_force", CDEM_ARRAY_REAL, 6 * walls, core->wall_force};
   list[k++] = (entry){"dem/wall_stiffness", CDEM_ARRAY_REAL, walls, core->wall_stiff};
+  list[k++] = (entry){"dem/wall_push", CDEM_ARRAY_REAL, walls, core->wall_push};
   list[k++] = (entry){"dem/cell", CDEM_ARRAY_REAL, 9, (void *)(uintptr_t)s->cell.h};
   list[k++] = (entry){"dem/image", CDEM_ARRAY_REAL, 81, (void *)(uintptr_t)s->image};
   list[k++] =
@@ -119,6 +120,8 @@ cdem_status cdem_dem_save(const cdem_dem *dem, cdem_state *state, cdem_fault *fa
   CDEM_TRY(cdem_neighbours_save(s, state, fault));
   if (s->walls != NULL)
     CDEM_TRY(cdem_walls_save(s, state, fault));
+  if (core->confine != NULL)
+    CDEM_TRY(cdem_confine_save(dem, state, fault));
   return core->bonds > 0 ? cdem_bonds_save(dem, state, fault) : CDEM_OK;
 }
 
@@ -169,6 +172,8 @@ static cdem_status restore(cdem_dem *dem, const cdem_state *state, cdem_fault *f
     CDEM_TRY(cdem_bonds_restore(dem, state, fault));
   /* No build of pairs: it would bring grains back into a periodic cell before their time. */
   CDEM_TRY(cdem_neighbours_restore(s, state, fault));
+  if (core->confine != NULL)
+    CDEM_TRY(cdem_confine_restore(dem, state, fault));
   if (s->walls != NULL) {
     double skin = s->skin;
     s->skin = 2.0 * skin;

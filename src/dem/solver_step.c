@@ -3,7 +3,7 @@
  * One team of threads stays together until the list of candidates is outlived or the steps are
  * done. Chunks are dealt out in the same way to moving and to forces, so that a thread finds its
  * grains in its cache. */
-#include "dem/solver_store.h"
+#include "dem/confine.h"
 #include "dem/walls_store.h"
 
 #include <math.h>
@@ -59,8 +59,11 @@ static outcome advance(cdem_dem *dem) {
   cdem_dem_core *core = s->core;
   double moved2 = 0.0, wall = 0.0;
   bool bad = false;
+  if (core->confine != NULL)
+    cdem_confine_aim(dem);
   if (s->walls != NULL) {
-    cdem_walls_advance(s, dem->time, dem->step, core->wall_force, core->wall_stiff, &wall);
+    const cdem_wall_loads loads = {core->wall_force, core->wall_stiff, core->wall_push};
+    cdem_walls_advance(s, dem->time, dem->step, &loads, &wall);
     core->wall_moved = wall;
   }
   if (s->pair_image != NULL)
@@ -70,6 +73,8 @@ static outcome advance(cdem_dem *dem) {
   cdem_dem_wall_centers(dem);
   dem->steps++;
   dem->time = core->base_time + (double)(dem->steps - core->base_steps) * dem->step;
+  if (core->confine != NULL)
+    cdem_confine_move(dem);
   for (int32_t c = 0; c < core->chunks; c++) {
     moved2 = fmax(moved2, core->part[c].moved2);
     bad |= core->part[c].bad >= 0;
@@ -81,6 +86,8 @@ static outcome advance(cdem_dem *dem) {
     return cdem_dem_flow_outlived(dem, moved) ? BUILD : GO_ON;
   double shift = s->pair_image != NULL ? cell_moved(s) : 0.0;
   bool outlived = 2.0 * moved + shift >= s->skin || moved + core->wall_moved >= 0.5 * s->skin;
+  if (core->confine != NULL)
+    outlived = outlived || moved + core->confine->moved >= s->skin;
   return outlived ? BUILD : GO_ON;
 }
 
@@ -122,6 +129,8 @@ static outcome team(cdem_dem *dem, bool moved, int64_t *left) {
       for (int32_t c = 0; c < core->chunks; c++)
         if (!reference)
           cdem_dem_force_chunk(dem, c, dem->step, work);
+      if (core->confine != NULL)
+        cdem_confine_forces(dem);
 #pragma omp single
       {
         if (reference)

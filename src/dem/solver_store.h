@@ -117,12 +117,15 @@ struct cdem_dem_core {
   void *block[12]; /* what aligned arrays were allocated as */
   int blocks;
   cdem_dem_part *part; /* [chunks] */
-  double *wall_part;   /* [chunks][walls][8] force, moment about the centre, stiffness, - */
+  double *wall_part;   /* [chunks][walls][8] force, moment about the centre, stiffness, push */
   double *wall_force;  /* [walls][6] on the walls at t_n */
   double *wall_stiff;  /* [walls] */
   double *wall_center; /* [walls][3] at the evaluation */
   cdem_dem_work *work; /* [threads] */
   int works;
+
+  double *wall_push;            /* [walls] sum of the normal pushes of grains, N */
+  struct cdem_confine *confine; /* confine.h; NULL: none */
 
   /* bonds */
   int64_t bonds, broken;

@@ -128,12 +128,16 @@ int cdem_walls_find(cdem_dem_store *s, int32_t i, cdem_wall_touch touch[CDEM_WAL
 /* [histories] of a touch, zeroed when fresh; *fresh is set to whether it is and the slot is in use
  * from now on. */
 double *cdem_walls_history(cdem_dem_store *s, const cdem_wall_touch *touch, bool *fresh);
-/* Moves the walls to t + dt with the forces on them (servos); force and moment about its centre are
- * [walls][6]. Returns the work done on the grains is kept by the caller. Furthest way of any point
- * of a wall near grains since the last build goes to *moved. stiffness [walls]: sum of the normal
- * stiffnesses of its contacts, N/m. */
-void cdem_walls_advance(cdem_dem_store *s, double time, double step, const double *force,
-                        const double *stiffness, double *moved);
+/* Of the grains on the walls: force and moment about its centre [walls][6]; sum of the normal
+ * stiffnesses of its contacts [walls], N/m; sum of the normal pushes [walls], N. NULL: none, as all
+ * of them. */
+typedef struct {
+  const double *force, *stiffness, *push;
+} cdem_wall_loads;
+/* Moves the walls to t + dt, servos by their loads. Furthest way of any point of a wall near grains
+ * since the last build goes to *moved. */
+void cdem_walls_advance(cdem_dem_store *s, double time, double step, const cdem_wall_loads *loads,
+                        double *moved);
 /* CDEM_INPUT: a grain with its centre on the wrong side of a plane, outside a cylinder (names
  * both). */
 cdem_status cdem_walls_check(const cdem_dem_store *s, cdem_fault *fault);

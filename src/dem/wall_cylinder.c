@@ -11,6 +11,9 @@ static cdem_status check(int dim, const cdem_wall *wall, cdem_fault *fault) {
   CDEM_REQUIRE(isfinite(wall->radius) && wall->radius > 0.0, fault, CDEM_INPUT,
                "wall '%s': the radius of a cylinder is %g m; it must be positive", name,
                wall->radius);
+  CDEM_REQUIRE(!wall->servo_radius || (!wall->outside && wall->half[0] == 0.0), fault, CDEM_INPUT,
+               "wall '%s': a servo of the radius wants grains inside a cylinder without ends",
+               name);
   if (dim == 2)
     return CDEM_OK;
   CDEM_REQUIRE(cdem_wall_unit(a), fault, CDEM_INPUT,
@@ -80,7 +83,7 @@ static double moved(const cdem_wall_body *body) {
   } else {
     reach = sqrt(body->wall.half[0] * body->wall.half[0] + body->wall.radius * body->wall.radius);
   }
-  return cdem_norm3(way) + reach * cdem_norm3(tilt);
+  return cdem_norm3(way) + reach * cdem_norm3(tilt) + fabs(body->wall.radius - body->built_radius);
 }
 
 static double beyond(const cdem_wall_body *body, const double x[3]) {

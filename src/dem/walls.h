@@ -61,10 +61,13 @@ typedef struct {
    * effect. */
   double servo[3];
   cdem_series servo_force; /* N */
-  double servo_gain;       /* 0 < gain < 1; 0: 0.25 */
-  double servo_speed;      /* m/s, > 0 with a servo */
-  double start;            /* s: the wall is there from this time on ... */
-  double stop;             /* ... until this one (a gate that opens); 0: for ever */
+  /* Cylinder: the servo is one of its radius instead; servo_force is the sum of the normal pushes
+   * of the grains, positive with grains inside. */
+  bool servo_radius;
+  double servo_gain;  /* 0 < gain < 1; 0: 0.25 */
+  double servo_speed; /* m/s, > 0 with a servo */
+  double start;       /* s: the wall is there from this time on ... */
+  double stop;        /* ... until this one (a gate that opens); 0: for ever */
 } cdem_wall;
 
 /* CDEM_INPUT for a normal or axis of no length, half lengths, radius, facets that cannot be, a

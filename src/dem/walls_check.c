@@ -38,9 +38,13 @@ static cdem_status check_flat(const cdem_wall *wall, cdem_fault *fault) {
 static cdem_status check_servo(const cdem_wall *wall, cdem_fault *fault) {
   const char *name = cdem_wall_name(wall);
   double direction[3] = {wall->servo[0], wall->servo[1], wall->servo[2]};
-  if (direction[0] == 0.0 && direction[1] == 0.0 && direction[2] == 0.0)
+  bool along = direction[0] != 0.0 || direction[1] != 0.0 || direction[2] != 0.0;
+  CDEM_REQUIRE(!wall->servo_radius || (wall->shape == CDEM_WALL_CYLINDER && !along), fault,
+               CDEM_INPUT,
+               "wall '%s': a servo of the radius is one of a cylinder, without direction", name);
+  if (!along && !wall->servo_radius)
     return CDEM_OK;
-  CDEM_REQUIRE(cdem_wall_unit(direction), fault, CDEM_INPUT,
+  CDEM_REQUIRE(wall->servo_radius || cdem_wall_unit(direction), fault, CDEM_INPUT,
                "wall '%s': the direction (%g, %g, %g) of its servo is none", name, wall->servo[0],
                wall->servo[1], wall->servo[2]);
   CDEM_REQUIRE(isfinite(wall->servo_speed) && wall->servo_speed > 0.0, fault, CDEM_INPUT,

@@ -150,6 +150,7 @@ void cdem_wall_keep_built(cdem_wall_body *body) {
     body->built_center[c] = body->center[c];
   for (int k = 0; k < 9; k++)
     body->built_turn[k] = body->turn[k];
+  body->built_radius = body->wall.radius;
 }
 
 static void shift(cdem_wall_body *body, double next) {
@@ -169,24 +170,28 @@ static void shift(cdem_wall_body *body, double next) {
 
 /* ---- servo ---- */
 
-static double servo_speed(const cdem_wall_body *body, double time, double step,
-                          const double force[3], double stiffness) {
+static double servo_speed(const cdem_wall_body *body, double time, double step, double force,
+                          double stiffness) {
   double most = body->wall.servo_speed;
-  double excess =
-      cdem_dot3(force, body->wall.servo) - cdem_series_at(&body->wall.servo_force, time);
+  double excess = force - cdem_series_at(&body->wall.servo_force, time);
   if (!(stiffness > 0.0))
     return excess > 0.0 ? most : (excess < 0.0 ? -most : 0.0);
   double speed = body->wall.servo_gain * excess / (stiffness * step);
   return speed > most ? most : (speed < -most ? -most : speed);
 }
 
+/* A tube that grains push outwards by dF more per radius lost: as above. */
+static void swell(cdem_wall_body *body, double time, double step, double push, double stiffness) {
+  body->radius_speed = body->here ? servo_speed(body, time, step, push, stiffness) : 0.0;
+  body->wall.radius += body->radius_speed * step;
+}
+
 static void advance(cdem_wall_body *body, double time, double step, const double *force,
                     double stiffness) {
   double next = time + step, middle = time + 0.5 * step;
   if (body->servo) {
-    static const double none[3] = {0.0, 0.0, 0.0};
-    body->servo_speed =
-        body->here ? servo_speed(body, next, step, force != NULL ? force : none, stiffness) : 0.0;
+    double along = force != NULL ? cdem_dot3(force, body->wall.servo) : 0.0;
+    body->servo_speed = body->here ? servo_speed(body, next, step, along, stiffness) : 0.0;
     body->servo_path += body->servo_speed * step;
   }
   shift(body, next);
@@ -199,16 +204,20 @@ static void advance(cdem_wall_body *body, double time, double step, const double
   cdem_wall_place(body, next);
 }
 
-void cdem_walls_advance(cdem_dem_store *s, double time, double step, const double *force,
-                        const double *stiffness, double *moved) {
+void cdem_walls_advance(cdem_dem_store *s, double time, double step, const cdem_wall_loads *loads,
+                        double *moved) {
   cdem_walls *walls = s->walls;
   *moved = 0.0;
   if (walls == NULL)
     return;
   for (int w = 0; w < walls->walls; w++) {
     cdem_wall_body *body = walls->body + w;
-    advance(body, time, step, force != NULL ? force + 6 * w : NULL,
-            stiffness != NULL ? stiffness[w] : 0.0);
+    static const cdem_wall_loads none = {0};
+    const cdem_wall_loads *by = loads != NULL ? loads : &none;
+    double stiffness = by->stiffness != NULL ? by->stiffness[w] : 0.0;
+    advance(body, time, step, by->force != NULL ? by->force + 6 * w : NULL, stiffness);
+    if (body->wall.servo_radius)
+      swell(body, time + step, step, by->push != NULL ? by->push[w] : 0.0, stiffness);
     *moved = fmax(*moved, body->kind->moved(body));
   }
   walls->time = time + step;

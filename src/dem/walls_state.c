@@ -39,6 +39,9 @@ static void walk_body(cdem_wall_body *body, double *record, bool pack) {
   walk(&w, body->built_center, 3);
   walk(&w, body->built_turn, 9);
   walk(&w, &body->reach, 1);
+  walk(&w, &body->wall.radius, 1);
+  walk(&w, &body->radius_speed, 1);
+  walk(&w, &body->built_radius, 1);
 }
 
 /* ---- saving ---- */

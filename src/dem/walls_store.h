@@ -81,9 +81,10 @@ struct cdem_wall_body {
   double about[3];
   bool servo;
   double servo_path, servo_speed;
+  double radius_speed; /* with servo_radius, m/s */
 
   /* at the last build */
-  double built_center[3], built_turn[9];
+  double built_center[3], built_turn[9], built_radius;
   double reach; /* furthest grain from built_center, with the skin */
 };
 
@@ -149,6 +150,8 @@ static inline void cdem_wall_fill(const cdem_wall_body *body, const double x[3],
   cdem_cross3(body->spin, arm, touch->velocity);
   for (int c = 0; c < 3; c++)
     touch->velocity[c] += body->velocity[c];
+  for (int c = 0; body->wall.servo_radius && c < 3; c++)
+    touch->velocity[c] += body->radius_speed * touch->n[c];
   touch->overlap = radius - distance;
   touch->material = body->wall.material;
 }

@@ -6,6 +6,7 @@
 #include "dem/dem.h"
 #include "dem/pictures.h"
 #include "run/setup.h"
+#include "run/triaxial.h"
 
 /* Triangles or segments of a wall, read from a file or a checkpoint. */
 typedef struct {
@@ -35,6 +36,10 @@ typedef struct {
   cdem_bond *bond; /* [bonds] */
   cdem_cell cell;
   bool has_cell;
+  bool has_triaxial;
+  cdem_run_triaxial triaxial;
+  cdem_membrane_options membrane;
+  cdem_confinement confinement;
   cdem_dem_options options;
   cdem_dem dem;
   double *velocity;              /* [grains][3] scratch of the columns */
@@ -61,6 +66,11 @@ cdem_status cdem_run_grains_save(const cdem_run_grains *g, cdem_state *state, cd
 cdem_status cdem_run_grains_walls(cdem_run_grains *g, const cdem_state *checkpoint,
                                   cdem_fault *fault);
 cdem_status cdem_run_grains_cell(cdem_run_grains *g, cdem_fault *fault);
+/* grains_triaxial.c: plates, side and plan of a triaxial test; steps with its stages; its columns
+ */
+cdem_status cdem_run_grains_triaxial(cdem_run_grains *g, cdem_fault *fault);
+cdem_status cdem_run_grains_advance(cdem_run_grains *g, int64_t steps, cdem_fault *fault);
+void cdem_run_grains_triaxial_columns(const cdem_run_grains *g, cdem_run_row *row);
 /* grains_contacts.c: which materials are used, and the numbers of each pair */
 cdem_status cdem_run_grains_materials(cdem_run_grains *g, cdem_fault *fault);
 cdem_status cdem_run_grains_contacts(cdem_run_grains *g, cdem_fault *fault);
@@ -83,12 +93,22 @@ cdem_status cdem_run_grains_probe(cdem_run_grains *g, const cdem_case_probe *pro
 cdem_status cdem_run_grains_pictures_init(cdem_run_grains *g, cdem_fault *fault);
 cdem_status cdem_run_grains_pictures(cdem_run_setup *run, const char *folder, const char *tag,
                                      cdem_fault *fault);
-/* ... names in grains.pictures: fields of grains and two more; -1: no such */
-enum { CDEM_RUN_CHAINS = CDEM_GRAIN_FIELDS, CDEM_RUN_VELOCITIES, CDEM_RUN_CHOICES };
+/* ... names in grains.pictures: fields of grains and two more, which are maps; and a curve, the
+ * distribution of the pushes; -1: no such */
+enum {
+  CDEM_RUN_CHAINS = CDEM_GRAIN_FIELDS,
+  CDEM_RUN_VELOCITIES,
+  CDEM_RUN_MAPS,
+  CDEM_RUN_PUSHES = CDEM_RUN_MAPS,
+  CDEM_RUN_CHOICES
+};
 int cdem_run_picture_find(const char *name);
 /* ... what the case says of a picture: kind, window, ends of the colour bar */
 cdem_picture cdem_run_picture(const cdem_run_setup *run, int choice,
                               const cdem_strain_reference *strain, const char *title);
+/* grains_pushes.c: the distribution of the pushes over their mean, as figure and data */
+cdem_status cdem_run_pushes(const cdem_dem *dem, const char *title, const char *folder,
+                            const char *name, cdem_fault *fault);
 /* ... name of its file; of displacement it is "pattern", as for bodies */
 const char *cdem_run_picture_file(char text[96], int choice, const char *tag);
 

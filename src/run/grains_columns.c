@@ -67,6 +67,10 @@ static void put_energies(cdem_run_row *row, cdem_run_grains *g) {
   cdem_run_put(row, "J", book.walls, "walls");
   if (g->has_cell)
     cdem_run_put(row, "J", book.cell, "cell");
+  if (g->has_triaxial && g->confinement.membrane != NULL) {
+    cdem_run_put(row, "J", book.membrane, "membrane");
+    cdem_run_put(row, "J", book.pressure, "pressure");
+  }
   cdem_run_put(row, "J", book.circulating, "circulating");
   cdem_run_put(row, "", book.exchange > 0.0 ? fabs(book.error) / book.exchange : 0.0,
                "energy_error");
@@ -148,6 +152,7 @@ void cdem_run_grains_columns(cdem_run_setup *run, cdem_run_row *row) {
   const cdem_case_values *values = cdem_run_values(run);
   put_energies(row, g);
   put_assembly(row, g);
+  cdem_run_grains_triaxial_columns(g, row);
   put_walls(row, g);
   put_cell(row, g);
   for (int64_t p = 0; p < values->probes.count; p++)

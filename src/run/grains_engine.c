@@ -29,7 +29,8 @@ cdem_status cdem_run_grains_build(cdem_run_grains *g, const cdem_state *checkpoi
                                   cdem_fault *fault) {
   CDEM_TRY(cdem_run_grains_materials(g, fault));
   CDEM_TRY(cdem_run_grains_contacts(g, fault));
-  CDEM_TRY(cdem_run_grains_walls(g, checkpoint, fault));
+  CDEM_TRY(cdem_case_is_triaxial(&g->run->cases) ? cdem_run_grains_triaxial(g, fault)
+                                                 : cdem_run_grains_walls(g, checkpoint, fault));
   CDEM_TRY(cdem_run_grains_cell(g, fault));
   CDEM_TRY(cdem_run_grains_bonds(g, fault));
   CDEM_TRY(cdem_run_grains_solver(g, fault));
@@ -92,11 +93,16 @@ static cdem_status save(const cdem_run_setup *run, cdem_state *state, cdem_fault
   const cdem_run_grains *g = grains_of(run);
   CDEM_TRY(cdem_run_grains_save(g, state, fault));
   CDEM_TRY(save_facets(g, state, fault));
+  if (g->has_triaxial)
+    CDEM_TRY(cdem_run_triaxial_save(&g->triaxial, state, fault));
   return cdem_dem_save(&g->dem, state, fault);
 }
 
 static cdem_status restore(cdem_run_setup *run, const cdem_state *checkpoint, cdem_fault *fault) {
-  return cdem_dem_restore(&grains_of(run)->dem, checkpoint, fault);
+  cdem_run_grains *g = grains_of(run);
+  if (g->has_triaxial)
+    CDEM_TRY(cdem_run_triaxial_restore(&g->triaxial, checkpoint, fault));
+  return cdem_dem_restore(&g->dem, checkpoint, fault);
 }
 
 /* ---- on its way ---- */
@@ -107,7 +113,7 @@ static void now(const cdem_run_setup *run, cdem_run_now *at) {
 }
 
 static cdem_status advance(cdem_run_setup *run, int64_t steps, cdem_fault *fault) {
-  return cdem_dem_steps(&grains_of(run)->dem, steps, fault);
+  return cdem_run_grains_advance(grains_of(run), steps, fault);
 }
 
 /* Without a contact there is nothing that could be balanced. */
@@ -151,9 +157,10 @@ const cdem_run_engine cdem_run_engine_grains = {
     .strides = true,
     .row_every = 1000,
     .look_every = 200,
-    .energies = {{"stored", {"translation", "rotation", "normal", "shear", "moment", "bond"}},
+    .energies = {{"stored",
+                  {"translation", "rotation", "normal", "shear", "moment", "bond", "membrane"}},
                  {"dissipated", {"friction", "rolling", "damping", "broken"}},
-                 {"work done", {"gravity", "walls", "cell", "circulating"}}},
+                 {"work done", {"gravity", "walls", "cell", "circulating", "pressure"}}},
     .build = build,
     .release = release,
     .save = save,

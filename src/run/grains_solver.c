@@ -30,6 +30,7 @@ static void fill_options(cdem_run_grains *g) {
                                   .bonds = g->bonds,
                                   .bond = g->bond,
                                   .cell = g->has_cell ? &g->cell : NULL,
+                                  .confinement = g->has_triaxial ? &g->confinement : NULL,
                                   .mass_damping = v->mass_damping,
                                   .local_damping = v->local_damping,
                                   .safety = v->safety,

@@ -10,7 +10,7 @@ static cdem_series constant(double *value) {
 static void advance(walled *w, double dt, int steps) {
   double moved;
   for (int i = 0; i < steps; i++)
-    cdem_walls_advance(&w->s, w->s.walls->time, dt, NULL, NULL, &moved);
+    cdem_walls_advance(&w->s, w->s.walls->time, dt, NULL, &moved);
 }
 
 /* ---- paths ---- */
@@ -50,7 +50,7 @@ static void a_drum_has_the_speed_of_its_surface(void **state) {
   walled_make(&w, 3, 1, 1, &wall);
   walled_build(&w);
   for (int i = 0; i < 100; i++)
-    cdem_walls_advance(&w.s, i * t0, t0, NULL, NULL, &moved);
+    cdem_walls_advance(&w.s, i * t0, t0, NULL, &moved);
   check_below(moved, 1e-13); /* no reason to search anew */
   for (double a = 0.0; a < 6.0; a += 0.5) {
     assert_int_equal(walled_touch(&w, 1.0 + 3.25 * cos(a), 9.0, 3.25 * sin(a), 1.0, t), 1);
@@ -229,7 +229,7 @@ static void no_wall_comes_nearer_than_it_says(void **state) {
       before[i] = near.distance;
     }
     for (int step = 0; step < 5; step++)
-      cdem_walls_advance(&w.s, 0.03 * step, 0.03, NULL, NULL, &moved);
+      cdem_walls_advance(&w.s, 0.03 * step, 0.03, NULL, &moved);
     for (int i = 0; i < GRAINS; i++) {
       body->kind->nearest(body, cdem_place(&w.s, i), 1e9, &near);
       double came = fabs(before[i] - near.distance);
@@ -254,10 +254,10 @@ static void a_wall_that_begins_to_turn_says_so(void **state) {
   walled_place(&w, 0, 100.0, 0.0, 1.2, 1.0);
   walled_build(&w);
   const cdem_wall_body *body = w.s.walls->body;
-  cdem_walls_advance(&w.s, 0.0, 1.0, NULL, NULL, &moved);
+  cdem_walls_advance(&w.s, 0.0, 1.0, NULL, &moved);
   assert_true(moved == 0.0);
   cdem_walls_move(&w.s, 0, NULL, spin);
-  cdem_walls_advance(&w.s, 1.0, 1.0, NULL, NULL, &moved);
+  cdem_walls_advance(&w.s, 1.0, 1.0, NULL, &moved);
   assert_true(body->kind->nearest(body, cdem_place(&w.s, 0), 1e9, &near));
   check_near(fabs(near.distance - 1.2), 0.1, 1e-4, 0.0); /* 100 m times sin(1e-3) */
   check_below(fabs(near.distance - 1.2), moved);
@@ -292,7 +292,7 @@ static void run_through_the_skin(bool always, double x[3], int *builds) {
   for (int i = 0; i < 6000; i++) {
     ball_step(&w, &b, dt);
     way += dt * cdem_norm3(b.v);
-    cdem_walls_advance(&w.s, i * dt, dt, NULL, NULL, &moved);
+    cdem_walls_advance(&w.s, i * dt, dt, NULL, &moved);
     if (always || way + moved > 0.1) {
       walled_place(&w, 0, b.x[0], b.x[1], b.x[2], b.radius);
       walled_build(&w);
@@ -453,7 +453,7 @@ static servo_result servo_run(double side, double direction, double wanted, doub
     double moved, force[6] = {0}, f = block_force(stiffness, side, 0.01 * side * unit + r.place);
     double k = f != 0.0 ? stiffness : 0.0;
     force[2] = f;
-    cdem_walls_advance(&w.s, i * dt, dt, force, &k, &moved);
+    cdem_walls_advance(&w.s, i * dt, dt, &(cdem_wall_loads){force, &k, NULL}, &moved);
     cdem_walls_now(&w.s, 0, &now);
     assert_true(fabs(now.velocity[2]) <= 0.5 * unit * (1.0 + 1e-12));
     check_near(now.moved[2] - r.place, now.velocity[2] * dt, 0.0, 1e-14 * unit);
@@ -510,7 +510,8 @@ static void toss(tossed *r, int steps, double phase) {
       walled_build(&r->w);
     }
     ball_step(&r->w, &r->b, dt);
-    cdem_walls_advance(&r->w.s, r->step * dt, dt, force, stiffness, &moved);
+    cdem_walls_advance(&r->w.s, r->step * dt, dt, &(cdem_wall_loads){force, stiffness, NULL},
+                       &moved);
   }
 }
 
