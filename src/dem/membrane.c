@@ -20,7 +20,7 @@ void cdem_membrane_complete(cdem_membrane_options *o, double pressure, double di
   if (o->thickness == 0.0)
     o->thickness = diameter / 100.0;
   if (o->young == 0.0)
-    o->young = 0.01 * (pressure * o->radius) / o->thickness;
+    o->young = 0.1 * (pressure * diameter) / o->thickness;
   if (o->bending == 0.0)
     o->bending = 0.1 * pressure * (diameter * diameter * diameter);
   if (o->areal_density == 0.0)

@@ -1,5 +1,6 @@
 /* Forces of a membrane, ring by ring, and what they say of its stiffness and shape. */
 #include "base/mat3.h"
+#include "base/simd.h"
 #include "dem/membrane_store.h"
 
 #include <math.h>
@@ -7,7 +8,7 @@
 
 /* ---- first look: faces above a ring, its mean, its differences ---- */
 
-static void mean_of_ring(cdem_membrane *m, int32_t ring) {
+CDEM_ALWAYS_INLINE void mean_of_ring(cdem_membrane *m, int32_t ring) {
   double *mean = m->store->mean + 6 * (int64_t)ring, sum[6] = {0};
   for (int64_t i = (int64_t)ring * m->around; i < (int64_t)(ring + 1) * m->around; i++)
     for (int c = 0; c < 3; c++) {
@@ -20,7 +21,7 @@ static void mean_of_ring(cdem_membrane *m, int32_t ring) {
 
 /* Area vector; and with a stiffness the St Venant-Kirchhoff forces: F = edges * inverse, E = (F^T F
  * - 1)/2, S = t Y/(1 - nu^2) ((1 - nu) E + nu tr E 1), forces on corners 1, 2: -A F S inverse^T. */
-static void look_face(cdem_membrane *m, int64_t f) {
+CDEM_ALWAYS_INLINE void look_face(cdem_membrane *m, int64_t f) {
   const cdem_membrane_options *o = &m->options;
   cdem_membrane_store *s = m->store;
   const int32_t *node = m->face + 3 * f;
@@ -53,7 +54,7 @@ static void look_face(cdem_membrane *m, int64_t f) {
 }
 
 /* Of the pyramid from the low end of the axis. */
-static double volume_of_face(const cdem_membrane *m, int64_t f) {
+CDEM_ALWAYS_INLINE double volume_of_face(const cdem_membrane *m, int64_t f) {
   const double *a = m->x + 3 * (int64_t)m->face[3 * f];
   const double r[3] = {a[0] - m->options.center[0], a[1] - m->options.center[1],
                        a[2] - m->options.low};
@@ -61,7 +62,7 @@ static double volume_of_face(const cdem_membrane *m, int64_t f) {
 }
 
 /* g: square of the radius at rest over the mean square distance from the axis now. */
-static double ring_size(cdem_membrane *m, int32_t ring) {
+CDEM_ALWAYS_INLINE double ring_size(cdem_membrane *m, int32_t ring) {
   const double *mean = m->store->mean + 6 * (int64_t)ring;
   double sum = 0.0;
   for (int64_t i = (int64_t)ring * m->around; i < (int64_t)(ring + 1) * m->around; i++)
@@ -71,8 +72,8 @@ static double ring_size(cdem_membrane *m, int32_t ring) {
 }
 
 /* Of places (from 0) or velocities (from 3). */
-static void difference(const cdem_membrane *m, int64_t i, int count, const double *of,
-                       const double *mean, double out[3]) {
+CDEM_ALWAYS_INLINE void difference(const cdem_membrane *m, int64_t i, int count, const double *of,
+                                   const double *mean, double out[3]) {
   const int32_t *near = m->store->near + CDEM_MEMBRANE_NEAR * i;
   const double *own = of + 3 * i;
   double round = m->store->round[count > 2];
@@ -85,7 +86,7 @@ static void difference(const cdem_membrane *m, int64_t i, int count, const doubl
 
 /* Differences of a ring by their stiffness. E of what is across the axis goes with g, and g with
  * the size of the ring: -dE/dx_i = 2 E/(n r^2) (x_i - mean) outwards. */
-static void bend_ring(cdem_membrane *m, int32_t ring) {
+CDEM_ALWAYS_INLINE void bend_ring(cdem_membrane *m, int32_t ring) {
   cdem_membrane_store *s = m->store;
   int64_t from = (int64_t)ring * m->around, to = from + m->around;
   bool end = ring == 0 || ring == m->rings - 1;
@@ -107,7 +108,7 @@ static void bend_ring(cdem_membrane *m, int32_t ring) {
   s->size[2 * ring + 1] = 2.0 * energy / (m->around * square);
 }
 
-void cdem_membrane_look(cdem_membrane *m, int32_t ring) {
+CDEM_MULTIVERSION void cdem_membrane_look(cdem_membrane *m, int32_t ring) {
   int64_t from = (int64_t)ring * m->around, to = from + m->around;
   m->store->band[ring] = 0.0;
   for (int64_t f = 2 * from; ring + 1 < m->rings && f < 2 * to; f++) {
@@ -123,7 +124,7 @@ void cdem_membrane_look(cdem_membrane *m, int32_t ring) {
 
 /* Minus the gradient: what is bent counts of itself, and against that of who has it as neighbour;
  * the part with the ring's mean falls to all of the ring alike. */
-static void bend(cdem_membrane *m, int64_t i, const double sum[6], double force[3]) {
+CDEM_ALWAYS_INLINE void bend(cdem_membrane *m, int64_t i, const double sum[6], double force[3]) {
   const cdem_membrane_store *s = m->store;
   const int32_t *taker = s->taker + CDEM_MEMBRANE_NEAR * i;
   const double *mean = s->mean + 6 * (i / m->around), *bent = s->bent, *rate = s->rate;
@@ -143,7 +144,7 @@ static void bend(cdem_membrane *m, int64_t i, const double sum[6], double force[
     force[c] += swell * (m->x[3 * i + c] - mean[c]);
 }
 
-static void mean_moment(const cdem_membrane *m, int32_t ring, double mean[6]) {
+CDEM_ALWAYS_INLINE void mean_moment(const cdem_membrane *m, int32_t ring, double mean[6]) {
   memset(mean, 0, 6 * sizeof *mean);
   for (int64_t i = (int64_t)ring * m->around; i < (int64_t)(ring + 1) * m->around; i++)
     for (int c = 0; c < 3; c++) {
@@ -154,8 +155,8 @@ static void mean_moment(const cdem_membrane *m, int32_t ring, double mean[6]) {
     mean[c] /= m->around;
 }
 
-void cdem_membrane_normal(const cdem_membrane *m, int32_t node, double normal[3]) {
-  const int32_t *corner = m->store->corner + CDEM_MEMBRANE_NEAR * (int64_t)node;
+CDEM_ALWAYS_INLINE void normal_of(const cdem_membrane *m, int64_t node, double normal[3]) {
+  const int32_t *corner = m->store->corner + CDEM_MEMBRANE_NEAR * node;
   normal[0] = normal[1] = normal[2] = 0.0;
   for (int k = 0; k < CDEM_MEMBRANE_NEAR && corner[k] >= 0; k++)
     for (int c = 0; c < 3; c++)
@@ -164,7 +165,11 @@ void cdem_membrane_normal(const cdem_membrane *m, int32_t node, double normal[3]
     normal[c] /= 3.0;
 }
 
-void cdem_membrane_gather(cdem_membrane *m, int32_t ring) {
+void cdem_membrane_normal(const cdem_membrane *m, int32_t node, double normal[3]) {
+  normal_of(m, node, normal);
+}
+
+CDEM_MULTIVERSION void cdem_membrane_gather(cdem_membrane *m, int32_t ring) {
   cdem_membrane_store *s = m->store;
   double mean[6];
   bool bends = m->options.bending != 0.0, stretches = m->options.young != 0.0;
@@ -178,7 +183,7 @@ void cdem_membrane_gather(cdem_membrane *m, int32_t ring) {
     for (int k = 0; stretches && k < CDEM_MEMBRANE_NEAR && corner[k] >= 0; k++)
       for (int c = 0; c < 3; c++)
         force[c] += s->pull[3 * (int64_t)corner[k] + c];
-    cdem_membrane_normal(m, (int32_t)i, normal);
+    normal_of(m, i, normal);
     for (int c = 0; c < 3; c++) {
       press[c] = -m->pressure * normal[c];
       m->force[3 * i + c] = force[c] + press[c] + s->damp[3 * i + c] + m->contact[3 * i + c];
