@@ -6,6 +6,7 @@
 #ifndef CDEM_BASE_QUANTITY_H
 #define CDEM_BASE_QUANTITY_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 typedef struct {
@@ -22,5 +23,9 @@ typedef struct {
 /* The SI unit as UDUNITS writes it ("Pa", "m", "kg m-3"), for messages and help; `text` holds at
  * least 48 characters and is returned. */
 char *cdem_dimension_unit(cdem_dimension dimension, char text[48]);
+
+/* The dimension of a unit as headers of tables write it: "N", "N m", "m/s", "kg m-3", "m2", "" or
+ * "rad" for none. False for a unit that has no name here, *dimension is left alone then. */
+bool cdem_dimension_of_unit(const char *unit, cdem_dimension *dimension);
 
 #endif

@@ -11,6 +11,7 @@ struct cdem_projector_factors {
   cholmod_common common;
   bool started;
   cholmod_factor *translation, *rotation;
+  double unit[2]; /* of mass and inertia: the factors are those of matrices over these */
 };
 
 void cdem_projector_release(cdem_projector *projector) {
@@ -125,9 +126,21 @@ static cdem_status out_of_memory(cdem_fault *fault) {
   return cdem_fail(fault, CDEM_MEMORY, "out of memory in the factors of the projector");
 }
 
-/* N^T diag(weight) N, factorised. */
-static cdem_status factorise(const cdem_projector *p, const double *weight, cholmod_factor **factor,
-                             cdem_fault *fault) {
+/* The power of two at or below the largest weight. Cholesky takes roots: of a matrix over this unit
+ * they are the same bits for the same masses times any power of two, an odd one too (a case that is
+ * scaled by 2 has masses times 8). */
+static double unit_of(int64_t count, const double *weight) {
+  double most = 0.0;
+  int exponent;
+  for (int64_t a = 0; a < count; a++)
+    most = fmax(most, weight[a]);
+  frexp(most, &exponent);
+  return ldexp(1.0, exponent - 1);
+}
+
+/* N^T diag(weight/unit) N, factorised. */
+static cdem_status factorise(const cdem_projector *p, const double *weight, double unit,
+                             cholmod_factor **factor, cdem_fault *fault) {
   cholmod_common *common = &p->factors->common;
   const cdem_weights *w = &p->weights;
   size_t entries = 0;
@@ -145,7 +158,7 @@ static cdem_status factorise(const cdem_projector *p, const double *weight, chol
         bool below = w->node[i] >= w->node[j];
         row[triplet->nnz] = below ? w->node[i] : w->node[j];
         column[triplet->nnz] = below ? w->node[j] : w->node[i];
-        value[triplet->nnz++] = weight[a] * w->n[i] * w->n[j];
+        value[triplet->nnz++] = weight[a] / unit * w->n[i] * w->n[j];
       }
   cholmod_sparse *matrix = cholmod_l_triplet_to_sparse(triplet, triplet->nnz, common);
   cholmod_l_free_triplet(&triplet, common);
@@ -197,8 +210,11 @@ static cdem_status build(const cdem_projector_options *o, cdem_projector *p, cde
   p->factors->started = true;
   p->factors->common.print = 0;
   p->factors->common.final_ll = 1; /* L D L^T would take masses of either sign */
-  CDEM_TRY(factorise(p, p->mass, &p->factors->translation, fault));
-  return factorise(p, p->inertia, &p->factors->rotation, fault);
+  double *unit = p->factors->unit;
+  unit[0] = unit_of(p->grains, p->mass);
+  unit[1] = unit_of(p->grains, p->inertia);
+  CDEM_TRY(factorise(p, p->mass, unit[0], &p->factors->translation, fault));
+  return factorise(p, p->inertia, unit[1], &p->factors->rotation, fault);
 }
 
 cdem_status cdem_projector_init(const cdem_projector_options *options, cdem_projector *projector,
@@ -216,10 +232,13 @@ cdem_status cdem_projector_init(const cdem_projector_options *options, cdem_proj
 
 /* ---- use ---- */
 
-/* right [nodes][width] (overwritten by the solution): columns `from` .. `to` by one factor. */
-static cdem_status solve(const cdem_projector *p, cholmod_factor *factor, int width, int from,
-                         int to, double *right, cdem_fault *fault) {
+/* right [nodes][width] (overwritten by the solution): columns `from` .. `to`, all translations or
+ * all rotations, by one factor. */
+static cdem_status solve(const cdem_projector *p, bool turns, int width, int from, int to,
+                         double *right, cdem_fault *fault) {
   cholmod_common *common = &p->factors->common;
+  cholmod_factor *factor = turns ? p->factors->rotation : p->factors->translation;
+  double unit = p->factors->unit[turns];
   size_t nodes = (size_t)p->nodes, columns = (size_t)(to - from);
   if (to <= from)
     return CDEM_OK;
@@ -228,7 +247,7 @@ static cdem_status solve(const cdem_projector *p, cholmod_factor *factor, int wi
     return out_of_memory(fault);
   for (size_t c = 0; c < columns; c++)
     for (size_t n = 0; n < nodes; n++)
-      ((double *)b->x)[c * nodes + n] = right[n * (size_t)width + (size_t)from + c];
+      ((double *)b->x)[c * nodes + n] = right[n * (size_t)width + (size_t)from + c] / unit;
   cholmod_dense *x = cholmod_l_solve(CHOLMOD_A, factor, b, common);
   for (size_t c = 0; x != NULL && c < columns; c++)
     for (size_t n = 0; n < nodes; n++)
@@ -252,10 +271,9 @@ cdem_status cdem_projector_project(const cdem_projector *p, cdem_projector_shape
       weighted[a * width + c] =
           (c < shape.translations ? p->mass[a] : p->inertia[a]) * q[a * width + c];
   cdem_weights_gather(&p->weights, width, weighted, right);
-  cdem_status status =
-      solve(p, p->factors->translation, width, 0, shape.translations, right, fault);
+  cdem_status status = solve(p, false, width, 0, shape.translations, right, fault);
   if (status == CDEM_OK)
-    status = solve(p, p->factors->rotation, width, shape.translations, width, right, fault);
+    status = solve(p, true, width, shape.translations, width, right, fault);
   double sum = 0.0;
   for (int64_t k = 0; k < count; k++)
     sum += fabs(right[k]);

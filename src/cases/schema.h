@@ -23,9 +23,17 @@ typedef enum {
   CDEM_KEY_NAMED       /* the same from a map of names; `char *name` is the first member */
 } cdem_key_kind;
 
-/* Does the quantity belong to the grains (stays when a domain is coarse-grained) or to the domain?
- */
-typedef enum { CDEM_TAG_NONE, CDEM_TAG_GRAIN, CDEM_TAG_DOMAIN } cdem_scale_tag;
+/* What happens to a quantity when a domain is filled with fewer, larger grains (coarse graining,
+ * room scaling)? In exact scaling all follow their dimension. */
+typedef enum {
+  CDEM_TAG_NONE,  /* ratios, words */
+  CDEM_TAG_GRAIN, /* of the grains: scales. An integer counts the grains of the domain: fewer of
+                     larger ones */
+  CDEM_TAG_LAW,   /* parameter of the grains' law or material: the same, but a length of it is no
+                     size of a grain and stays where the parameter rule is not followed */
+  CDEM_TAG_DOMAIN /* stays; times and speeds (s, m/s, 1/s) are slowed down to keep the inertial
+                     number, see keeps_rate */
+} cdem_scale_tag;
 
 typedef struct cdem_case_section cdem_case_section;
 
@@ -47,6 +55,11 @@ typedef struct {
   bool rotates;            /* of components: there may be a `rotation` ... */
   cdem_dimension rotation; /* ... of this dimension */
   cdem_scale_tag tag;
+  bool keeps_rate; /* of the domain, a time or a speed that says nothing of how fast the domain is
+                      driven: not slowed down */
+  bool plane;      /* has no meaning in 3-D */
+  const char *beside; /* a fallback with a dimension matters where this key of the section is given;
+                         NULL: always */
   const char *otherwise; /* what holds without the key, in words, where the fallback does not say it
                           */
   const char *help;      /* one line */
@@ -76,6 +89,13 @@ const cdem_case_key *cdem_case_key_find(const cdem_case_section *section, const 
  * axes; `key` is good for the time of the call. */
 void cdem_case_walk(void (*visit)(void *context, const char *path, const cdem_case_key *key),
                     void *context);
+
+/* Walks the sections of a case that were given, depth first, with the paths of its own entries:
+ * "materials.rock", "interfaces[2]"; the root's is "". */
+void cdem_case_walk_given(const cdem_case *cases,
+                          void (*visit)(void *context, const char *path,
+                                        const cdem_case_section *section),
+                          void *context);
 
 /* Fills a struct with the defaults of its section. */
 cdem_status cdem_case_defaults(const cdem_case_section *section, void *values, cdem_fault *fault);

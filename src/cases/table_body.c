@@ -15,7 +15,7 @@ static const cdem_case_key mesh[] = {
      .help = "Numbers that a .geo file declares by DefineConstant: name to plain number.",
      .example = "{h: 0.005, holes: 2}"},
     {MESH(unit), .kind = CDEM_KEY_NUMBER, .dimension = LENGTH, .fallback = 1, POSITIVE, DOMAIN,
-     .help = "Length of one unit of the file's coordinates.", .example = "1 mm"},
+     .beside = "file", .help = "Length of one unit of the file's coordinates.", .example = "1 mm"},
     {MESH(shape), .kind = CDEM_KEY_CHOICE, .choice = shapes,
      .help =
          "A structured grid of a box in place of a file, of these elements. Its groups are body "
@@ -45,7 +45,7 @@ static const char *const tensions[] = {"elastic", "none", NULL};
 
 #define MATERIAL(member) AT(cdem_case_material, member)
 static const cdem_case_key materials[] = {
-    {MATERIAL(material), .kind = CDEM_KEY_MATERIAL, GRAIN, .help = "Elastic model and its moduli.",
+    {MATERIAL(material), .kind = CDEM_KEY_MATERIAL, LAW, .help = "Elastic model and its moduli.",
      .example = "isotropic"},
     {MATERIAL(density), .kind = CDEM_KEY_NUMBER, .dimension = DENSITY, .fallback = NAN, POSITIVE,
      GRAIN, .otherwise = "none: static runs without gravity only", .help = "Mass per volume.",

@@ -53,7 +53,7 @@ static const cdem_case_key keys[] = {
              "random packings less lets grains escape.",
      .example = "0.3"},
     {COUPLING(absorb), .kind = CDEM_KEY_NUMBER, .dimension = RATE, .fallback = 0.0, NOT_NEGATIVE,
-     GRAIN,
+     DOMAIN, .keeps_rate = true,
      .help =
          "Takes motions that the mesh cannot express out of the grains at this rate, in a layer "
          "along the coarse medium, before they are thrown back; 0: no layer. About 5 times "

@@ -132,7 +132,7 @@ static const cdem_case_key packing[] = {
     {PACKING(classes), .kind = CDEM_KEY_LIST, .section = &section_classes,
      .otherwise = "required by sizes of a table", .help = "Classes of sizes.",
      .example = "[{radius: 2 mm, fraction: 0.4}, {radius: 3 mm, fraction: 0.6}]"},
-    {PACKING(count), .kind = CDEM_KEY_INTEGER, NOT_NEGATIVE,
+    {PACKING(count), .kind = CDEM_KEY_INTEGER, NOT_NEGATIVE, GRAIN,
      .otherwise = "by fraction; lattices: as many as there is room for",
      .help = "Loose: how many grains.", .example = "2000"},
     {PACKING(fraction), .kind = CDEM_KEY_NUMBER, .fallback = NAN, BETWEEN(0, 1), .above = true,
@@ -180,7 +180,7 @@ static const cdem_case_key ranges[] = {
     {ENDS(effective_strain, "Ends of the colour bar.", "[0, 0.25]")},
     {ENDS(contacts, "Ends of the colour bar.", "[0, 6]")},
     {ENDS(chains, "Ends of the colour bar: pushes themselves, not over their mean.", "[0, 100 kN]"),
-     .dimension = FORCE, DOMAIN},
+     .dimension = FORCE, GRAIN},
     {ENDS(velocities, "Ends of the colour bar; arrows are as long as it says.", "[0, 1 m/s]"),
      .dimension = VELOCITY, DOMAIN},
 };
@@ -260,7 +260,7 @@ static const cdem_case_key contacts[] = {
    .kind = CDEM_KEY_NUMBER,                                                                        \
    .dimension = {length_, time_, mass_},                                                           \
    .fallback = NAN,                                                                                \
-   .tag = (length_) != 0 || (time_) != 0 || (mass_) != 0 ? CDEM_TAG_GRAIN : CDEM_TAG_NONE,         \
+   .tag = (length_) != 0 || (time_) != 0 || (mass_) != 0 ? CDEM_TAG_LAW : CDEM_TAG_NONE,           \
    .otherwise = "as the law says",                                                                 \
    .help = help_,                                                                                  \
    .example = WRITTEN(length_, time_, mass_)},

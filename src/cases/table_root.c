@@ -18,8 +18,9 @@ static const cdem_case_key keys[] = {
      .help = "How a 2-D body extends out of its plane: plane strain or plane stress. No meaning in "
              "3-D.",
      .example = "stress"},
-    {TOP(thickness), .kind = CDEM_KEY_NUMBER, .dimension = LENGTH, .fallback = 1, POSITIVE, DOMAIN,
-     .help = "Thickness of a 2-D body, or of discs. No meaning in 3-D.", .example = "50 mm"},
+    {TOP(thickness), .kind = CDEM_KEY_NUMBER, .dimension = LENGTH, .fallback = 1, POSITIVE, LAW,
+     .plane = true, .help = "Thickness of a 2-D body, or of discs. No meaning in 3-D.",
+     .example = "50 mm"},
     {TOP(end), .kind = CDEM_KEY_NUMBER, .dimension = TIME, .fallback = NAN, POSITIVE, DOMAIN,
      .otherwise = "required by a dynamic run but a triaxial test; static: loads are taken at 0 s",
      .help = "Time at which the run ends; in a static run the time at which loads and supports are "

@@ -41,7 +41,7 @@ static const cdem_case_key walls[] = {
     {WALL(group), .kind = CDEM_KEY_TEXT, .otherwise = "all of the file",
      .help = "Group of the mesh file that is the wall.", .example = "funnel"},
     {WALL(unit), .kind = CDEM_KEY_NUMBER, .dimension = LENGTH, .fallback = 1, POSITIVE, DOMAIN,
-     .help = "Length of one unit of the file's coordinates.", .example = "1 mm"},
+     .beside = "file", .help = "Length of one unit of the file's coordinates.", .example = "1 mm"},
     {WALL(velocity), .kind = CDEM_KEY_COMPONENTS, .dimension = VELOCITY, DOMAIN,
      .otherwise = "at rest", .help = "Velocity of the center: x, y, z to functions of time.",
      .example = "{y: -20 mm/s}"},

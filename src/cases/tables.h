@@ -45,6 +45,7 @@
 #define AT_LEAST(value)   .least = (value), .most = INFINITY
 #define BETWEEN(low, top) .least = (low), .most = (top)
 #define GRAIN             .tag = CDEM_TAG_GRAIN
+#define LAW               .tag = CDEM_TAG_LAW
 #define DOMAIN            .tag = CDEM_TAG_DOMAIN
 
 #define SECTION(title, type, keys_, ...)                                                           \

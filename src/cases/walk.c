@@ -1,4 +1,5 @@
 /* Finding keys, and all of them in one walk. */
+#include "cases/places.h"
 #include "cases/tables.h"
 
 #include <stdio.h>
@@ -84,7 +85,7 @@ static void walk_material(const walker *walk, const char *prefix) {
                            .fallback = from->optional ? from->fallback : NAN,
                            .most = from->positive ? INFINITY : 0.0,
                            .above = from->positive,
-                           .tag = plain ? CDEM_TAG_NONE : CDEM_TAG_GRAIN,
+                           .tag = plain ? CDEM_TAG_NONE : CDEM_TAG_LAW,
                            .otherwise = from->optional ? NULL : "required by its models",
                            .help = from->help,
                            .example = example_of(from->dimension)};
@@ -117,4 +118,59 @@ void cdem_case_walk(void (*visit)(void *context, const char *path, const cdem_ca
                     void *context) {
   const walker walk = {visit, context};
   walk_section(&walk, "", cdem_case_root());
+}
+
+/* ---- what a case gives ---- */
+
+/* The layout that all CDEM_CASE_LIST share. */
+typedef CDEM_CASE_LIST(void) any_list;
+
+typedef struct {
+  const cdem_case *cases;
+  void (*visit)(void *context, const char *path, const cdem_case_section *section);
+  void *context;
+} given_walker;
+
+static void walk_given(const given_walker *walk, const char *path, const void *values,
+                       const cdem_case_section *section);
+
+static void walk_items(const given_walker *walk, const char *path, const void *member,
+                       const cdem_case_key *key) {
+  any_list list;
+  memcpy(&list, member, sizeof list);
+  for (int64_t i = 0; i < list.count; i++) {
+    char of[CDEM_CASE_PATH];
+    const char *name, *item = (const char *)list.item + (size_t)i * key->section->size;
+    memcpy(&name, item, sizeof name); /* of a named one; else not looked at */
+    if (key->kind == CDEM_KEY_NAMED)
+      snprintf(of, sizeof of, "%.160s.%.64s", path, name);
+    else
+      snprintf(of, sizeof of, "%.200s[%lld]", path, (long long)i);
+    walk_given(walk, of, item, key->section);
+  }
+}
+
+static void walk_given(const given_walker *walk, const char *path, const void *values,
+                       const cdem_case_section *section) {
+  walk->visit(walk->context, path, section);
+  for (int k = 0; k < section->keys; k++) {
+    const cdem_case_key *key = &section->key[k];
+    const char *member = (const char *)values + key->offset;
+    char of[CDEM_CASE_PATH];
+    snprintf(of, sizeof of, "%.190s%s%.60s", path, *path != '\0' ? "." : "", key->key);
+    if (key->section == NULL || !cdem_case_given(walk->cases, of))
+      continue;
+    if (key->kind == CDEM_KEY_SECTION)
+      walk_given(walk, of, member, key->section);
+    else
+      walk_items(walk, of, member, key);
+  }
+}
+
+void cdem_case_walk_given(const cdem_case *cases,
+                          void (*visit)(void *context, const char *path,
+                                        const cdem_case_section *section),
+                          void *context) {
+  const given_walker walk = {cases, visit, context};
+  walk_given(&walk, "", &cases->values, cdem_case_root());
 }

@@ -50,20 +50,26 @@ static void stiffness_of(const cdem_body_record *record, double *k, int stride) 
 #undef PLACE
 }
 
-/* 1/sqrt of the lumped masses of one cell: out [size]. */
-static void mass_roots(const cdem_body *body, int32_t cell, double *out) {
+/* sqrt(unit/mass) of the lumped masses of one cell: out [size]. The unit, a power of two near the
+ * mass of the first node, keeps roots the same bits where all masses are multiplied by a power of
+ * two, an odd one too (docs/theory/scaling.md); rotations differ by the square of a length. */
+static double mass_roots(const cdem_body *body, int32_t cell, double *out) {
   const cdem_body_store *store = body->store;
   int material = body->model->material[cell];
   const cdem_body_kind *kind = &store->kind[body->model->kind[cell]];
   double share[CDEM_BODY_NODES];
+  int exponent;
   cdem_body_shares(body->model, cell, share);
+  frexp(store->density[material] * share[0], &exponent);
+  double unit = ldexp(1.0, exponent);
   for (int i = 0; i < kind->nodes; i++)
     for (int a = 0; a < kind->dofs; a++) {
       double mass = store->density[material] * share[i];
       if (a >= kind->dimension)
         mass *= store->micro_inertia[material];
-      out[kind->dofs * i + a] = 1.0 / sqrt(mass);
+      out[kind->dofs * i + a] = 1.0 / sqrt(mass / unit);
     }
+  return unit;
 }
 
 /* Bounds of omega^2 of the cells of a batch [CDEM_LANES]. */
@@ -78,10 +84,10 @@ static void batch_bounds(const cdem_body *body, int64_t n, double *bound) {
     cdem_body_record record = cdem_body_record_of(store, cell);
     double scale[MAX_SIZE];
     stiffness_of(&record, a + lane, CDEM_LANES);
-    mass_roots(body, cell, scale);
+    double unit = mass_roots(body, cell, scale);
     for (int i = 0; i < size; i++)
       for (int j = 0; j < size; j++)
-        a[(size * i + j) * CDEM_LANES + lane] *= scale[i] * scale[j];
+        a[(size * i + j) * CDEM_LANES + lane] *= scale[i] * scale[j] / unit;
   }
   cdem_body_kernels_widest()->bounds(size, a, work, bound);
 }

@@ -350,7 +350,8 @@ INLINE void square(int size, const lanes_at *a, lanes_at *b, lanes *norm2) {
 
 /* The largest eigenvalue of a symmetric positive semidefinite matrix is at most tr(A^p)^(1/p), and
  * at least size^(-1/p) times that: p = 128 is six squarings and a norm, 2.5 % for 24 rows. Each
- * square is divided by its norm, whose roots make up the bound. */
+ * square is divided by its norm, whose roots make up the bound. The first norm has a dimension: a
+ * square root, which is exact for powers of four where pow need not be; the others have none. */
 TARGET static void KERNEL(bounds)(int size, double *a, double *work, double *bound) {
   enum { SQUARINGS = 6 };
   EACH_PART {
@@ -360,13 +361,9 @@ TARGET static void KERNEL(bounds)(int size, double *a, double *work, double *bou
     for (int e = 0; e < size * size; e++)
       norm2 += now[e * PARTS] * now[e * PARTS];
     for (int i = 0; i < WIDTH; i++)
-      power[i] = 1.0;
-    double share = 0.5;
-    for (int s = 0;; s++, share *= 0.5) {
-      for (int i = 0; i < WIDTH; i++)
-        power[i] *= pow(norm2[i], share);
-      if (s == SQUARINGS)
-        break;
+      power[i] = sqrt(norm2[i]);
+    double share = 0.25;
+    for (int s = 0; s < SQUARINGS; s++, share *= 0.5) {
       root(&norm2);
       lanes factor = 1.0 / norm2;
       for (int e = 0; e < size * size; e++)
@@ -375,6 +372,8 @@ TARGET static void KERNEL(bounds)(int size, double *a, double *work, double *bou
       lanes_at *swap = now;
       now = next;
       next = swap;
+      for (int i = 0; i < WIDTH; i++)
+        power[i] *= pow(norm2[i], share);
     }
     for (int i = 0; i < WIDTH; i++)
       bound[part * WIDTH + i] = power[i];

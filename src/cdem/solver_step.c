@@ -137,7 +137,7 @@ cdem_status cdem_solver_step(cdem_solver *solver, cdem_fault *fault) {
   double sums[CDEM_SUMS], dt = solver->step;
   cdem_solver_paths(solver, cdem_solver_next_time(solver));
   cdem_solver_pass(solver, true, solver->v, sums);
-  for (int k = 0; k < CDEM_SUMS; k++)
+  for (int k = 0; k < CDEM_SUM_SPEED; k++)
     s->total[k] += sums[k];
   solver->time = cdem_solver_next_time(solver);
   solver->steps++;

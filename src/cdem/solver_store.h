@@ -28,7 +28,7 @@ enum {
   CDEM_SUM_QUIET,  /* by quiet boundaries */
   CDEM_SUM_CHANGE, /* by which a change of the step shifts the kinetic energy */
   CDEM_SUM_KINETIC,
-  CDEM_SUM_SPEED, /* sum of |v|: finite as long as all velocities are */
+  CDEM_SUM_SPEED, /* of one pass, sum of |v| and |spin|: finite as long as all are */
   CDEM_SUMS
 };
 

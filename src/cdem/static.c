@@ -30,6 +30,7 @@ typedef struct {
   int64_t *unknown;                    /* [nodes][dofs] -1: prescribed or of no cell */
   double *residual, *product, *packed; /* [nodes][dofs], [matrix nodes][dofs] twice */
   double *reduced, *scale;             /* [unknowns] */
+  double unit;                         /* of the matrix, see unit_of */
   cholmod_common common;
   bool started;
   cholmod_sparse *reduced_matrix;
@@ -173,6 +174,19 @@ static cdem_status out_of_memory(cdem_fault *fault) {
   return cdem_fail(fault, CDEM_MEMORY, "out of memory in the sparse factorisation");
 }
 
+/* The power of two at or below the largest stiffness of a displacement: roots of stiffness over it
+ * are the same bits for the same stiffness times any power of two, an odd one too. Rotations have
+ * another dimension, by the square of a length, whose root is as exact. */
+static double unit_of(const statics *t, const double *diagonal) {
+  int dofs = t->solver->dofs, dim = t->solver->store->dimension, exponent;
+  double most = 0.0;
+  for (int64_t i = 0; i < (int64_t)t->solver->nodes * dofs; i++)
+    if (t->unknown[i] >= 0 && i % dofs < dim)
+      most = fmax(most, diagonal[t->unknown[i]]);
+  frexp(most, &exponent);
+  return most > 0.0 && isfinite(most) ? ldexp(1.0, exponent - 1) : 1.0;
+}
+
 /* Rows and columns divided by the root of the diagonal: rotations and soft parts weigh the same. */
 static cdem_status scale_matrix(statics *t) {
   const SuiteSparse_long *start = t->reduced_matrix->p, *row = t->reduced_matrix->i;
@@ -181,7 +195,12 @@ static cdem_status scale_matrix(statics *t) {
   for (int64_t c = 0; c < t->unknowns; c++)
     for (SuiteSparse_long k = start[c]; k < start[c + 1]; k++)
       if (row[k] == c)
-        t->scale[c] = value[k] > 0.0 ? 1.0 / sqrt(value[k]) : 1.0;
+        t->scale[c] = value[k];
+  t->unit = unit_of(t, t->scale);
+  for (int64_t k = 0; k < start[t->unknowns]; k++)
+    value[k] /= t->unit;
+  for (int64_t c = 0; c < t->unknowns; c++)
+    t->scale[c] = t->scale[c] > 0.0 ? 1.0 / sqrt(t->scale[c] / t->unit) : 1.0;
   for (int64_t c = 0; c < t->unknowns; c++)
     for (SuiteSparse_long k = start[c]; k < start[c + 1]; k++)
       value[k] *= t->scale[c] * t->scale[row[k]];
@@ -257,7 +276,7 @@ static cdem_status correct(statics *t) {
   memset(t->reduced, 0, rows * sizeof *t->reduced);
   for (size_t i = 0; i < count; i++)
     if (t->unknown[i] >= 0)
-      t->reduced[t->unknown[i]] += t->residual[i] * t->scale[t->unknown[i]];
+      t->reduced[t->unknown[i]] += t->residual[i] / t->unit * t->scale[t->unknown[i]];
   cholmod_dense right = {
       .nrow = rows, .ncol = 1, .nzmax = rows, .d = rows, .x = t->reduced, .xtype = CHOLMOD_REAL};
   cholmod_dense *solution = cholmod_l_solve(CHOLMOD_A, t->factor, &right, &t->common);

@@ -121,8 +121,9 @@ typedef struct {
   double fraction;  /* of solid in the box; 0: by pressure or height */
   double pressure;  /* Pa; 0: by fraction or height */
   double height;    /* of a cylinder, m; 0: by fraction or pressure */
-  double stiffness; /* normal, N/m in 3-D, 2-D (1 m thick); 0: from pressure so that overlaps stay
-                       below 1e-3 radii */
+  double thickness; /* of discs, m; 0: 1 m */
+  double stiffness; /* normal, N/m, of the whole thickness in 2-D; 0: from pressure so that overlaps
+                       stay below 1e-3 radii */
   double friction, restitution; /* restitution 0: 0.5 */
   double inertial;              /* inertial number of the compaction, 0: 1e-3 */
   double density;               /* kg/m^3; 0: 2600 */

@@ -29,6 +29,7 @@ typedef struct {
   double low[3], high[3];
   double solid, radius; /* all grains; mean, m */
   double soft;          /* overlap in radii at the pressure `reference` */
+  double thickness;     /* of discs, m; 3-D: 1 */
   double reference;     /* Pa */
   double least_rate;    /* 1/s: by the inertial number */
   double most_rate;     /* 1/s: while there is no pressure */
@@ -85,12 +86,12 @@ static cdem_status check(const cdem_packing_options *o, const cdem_compaction *c
   CDEM_REQUIRE(grains->dim == o->dim, fault, CDEM_INPUT,
                "the grains are of dimension %d, their box of %d", grains->dim, o->dim);
   CDEM_TRY(check_target(o, c, fault));
-  const double number[9] = {c->fraction, c->pressure, c->stiffness, c->friction, c->restitution,
-                            c->inertial, c->density,  c->tolerance, c->height};
-  const char *const name[9] = {"fraction", "pressure",    "stiffness",
-                               "friction", "restitution", "inertial number",
-                               "density",  "tolerance",   "height"};
-  for (int i = 0; i < 9; i++)
+  const double number[10] = {c->fraction, c->pressure, c->stiffness, c->friction,  c->restitution,
+                             c->inertial, c->density,  c->tolerance, c->thickness, c->height};
+  const char *const name[10] = {"fraction",    "pressure",        "stiffness", "friction",
+                                "restitution", "inertial number", "density",   "tolerance",
+                                "thickness",   "height"};
+  for (int i = 0; i < 10; i++)
     CDEM_REQUIRE(number[i] >= 0.0 && isfinite(number[i]), fault, CDEM_INPUT,
                  "compaction: the %s is %g; it must not be negative", name[i], number[i]);
   CDEM_REQUIRE(c->restitution <= 1.0, fault, CDEM_INPUT,
@@ -105,8 +106,8 @@ static cdem_status check(const cdem_packing_options *o, const cdem_compaction *c
   return CDEM_OK;
 }
 
-/* A mean contact force F = p d^2 (discs: p d times 1 m) makes an overlap of e r where the stiffness
- * is F/(e r). */
+/* A mean contact force F = p d^2 (discs: p d times the thickness) makes an overlap of e r where the
+ * stiffness is F/(e r). */
 static void choose_scales(press *p, const cdem_grains *grains) {
   const cdem_compaction *c = p->compaction;
   double sum = 0.0, density = kept(c->density, 2600.0);
@@ -114,11 +115,14 @@ static void choose_scales(press *p, const cdem_grains *grains) {
     sum += grains->radius[i];
   p->radius = sum / (double)grains->grains;
   p->solid = cdem_grains_solid(grains);
-  double per = (p->dim == 3 ? 4.0 * p->radius : 2.0) / p->soft, stiffness = c->stiffness;
+  p->thickness = p->dim == 2 ? kept(c->thickness, 1.0) : 1.0;
+  double per = (p->dim == 3 ? 4.0 * p->radius : 2.0 * p->thickness) / p->soft;
+  double stiffness = c->stiffness;
   /* Without a pressure any stiffness does; the mean mass per second squared ties it to the grains.
    */
   if (stiffness == 0.0)
-    stiffness = c->pressure > 0.0 ? per * c->pressure : density * p->solid / (double)grains->grains;
+    stiffness = c->pressure > 0.0 ? per * c->pressure
+                                  : density * p->solid * p->thickness / (double)grains->grains;
   p->reference = stiffness / per;
   double pressure = c->pressure > 0.0 ? c->pressure : p->reference;
   double inertial = kept(c->inertial, 1e-3), rate = sqrt(pressure / density) / (2.0 * p->radius);
@@ -230,7 +234,7 @@ static cdem_status look(press *p, bool whole, cdem_fault *fault) {
     force += cdem_norm3(at->force);
     p->now.most_overlap = fmax(p->now.most_overlap, at->overlap / smaller);
   }
-  p->now.pressure = virial / (p->dim * room(p));
+  p->now.pressure = virial / (p->dim * room(p) * p->thickness);
   free(contact);
   p->now.unbalanced = cdem_dem_unbalanced(&p->dem);
   if (p->options->cylinder)
@@ -339,7 +343,7 @@ static cdem_status run(press *p, cdem_fault *fault) {
     rests = is_there(p) ? rests + 1 : 0;
     if (rests == RESTS)
       return CDEM_OK;
-    if (chunk % 64 == 0)
+    if (chunk % 8 == 0)
       CDEM_TRY(keep_step(p, fault));
   }
   return cdem_fail(fault, CDEM_NUMERIC,
@@ -376,6 +380,7 @@ static cdem_status begin(press *p, const cdem_grains *grains, cdem_fault *fault)
         .walls = p->walls,
         .wall = p->wall,
         .cell = p->periodic ? &p->cell : NULL,
+        .thickness = p->thickness,
         .local_damping = ALPHA,
         .safety = 0.6,
         .threads = p->compaction->threads,

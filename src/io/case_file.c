@@ -38,6 +38,29 @@ void cdem_case_note(cdem_case_reader *r, const cdem_yaml_node *at) {
     r->status = cdem_case_places_add(r->read->places, r->path, &place, r->fault);
 }
 
+/* Notes the numbers of the tree from this one on as those of the key, whose path is r->path. node:
+ * those that stand there alone; -1: all. */
+static void note_numbers(cdem_case_reader *r, int64_t first, int32_t node,
+                         const cdem_case_key *key) {
+  for (int64_t i = first; i < r->yaml.numbers && r->status == CDEM_OK; i++) {
+    const cdem_yaml_number *number = &r->yaml.number[i];
+    const cdem_yaml_node *at = &r->yaml.node[number->node];
+    if (node >= 0 && number->node != node)
+      continue;
+    const cdem_case_quantity quantity = {.line = at->line,
+                                         .column = at->column,
+                                         .width = at->width,
+                                         .override = at->origin - 1,
+                                         .dimension = number->dimension,
+                                         .tag = key->tag,
+                                         .keeps_rate = key->keeps_rate,
+                                         .counts = key->kind == CDEM_KEY_INTEGER &&
+                                                   key->tag == CDEM_TAG_GRAIN,
+                                         .value = number->value};
+    r->status = cdem_case_places_add_quantity(r->read->places, r->path, &quantity, r->fault);
+  }
+}
+
 /* ---- lists ---- */
 
 /* The layout that all CDEM_CASE_LIST share. */
@@ -127,8 +150,11 @@ static void read_key(cdem_case_reader *r, const cdem_yaml_node *name, const cdem
     read_list(r, value, key, member);
   else if (key->kind == CDEM_KEY_NAMED)
     read_named(r, value, key, member);
-  else
+  else {
+    int64_t first = r->yaml.numbers;
     cdem_case_value(r, value, key, values);
+    note_numbers(r, first, -1, key);
+  }
   cdem_case_leave(r, before);
 }
 
@@ -149,22 +175,24 @@ static void report_missing(cdem_case_reader *r, const cdem_yaml_node *map,
 /* The places of the keys that the material reader takes; it names unknown keys too. */
 static void read_material_part(cdem_case_reader *r, const cdem_yaml_node *at,
                                const cdem_yaml_node *mark, const cdem_case_section *section,
-                               cdem_material *material) {
+                               const cdem_case_key *key, cdem_material *material) {
   const char *others[MAX_SECTION_KEYS];
   int count = 0;
+  int64_t first = r->yaml.numbers;
   for (int k = 0; k < section->keys && count < MAX_SECTION_KEYS; k++)
     if (section->key[k].kind != CDEM_KEY_MATERIAL)
       others[count++] = section->key[k].key;
+  const char *dot = strrchr(r->path, '.'); /* the name, which check_name has measured */
+  snprintf(material->name, sizeof material->name, "%.63s", dot != NULL ? dot + 1 : r->path);
+  cdem_yaml_material(&r->yaml, &r->units, at, mark, others, count, material);
   CDEM_YAML_EACH(&r->yaml, at, name, value) {
     if (name->kind != CDEM_YAML_SCALAR || cdem_case_key_find(section, name->text) != NULL)
       continue;
     size_t before = cdem_case_enter(r, "%s", name->text);
     cdem_case_note(r, value->kind == CDEM_YAML_SCALAR ? value : name);
+    note_numbers(r, first, (int32_t)(value - r->yaml.node), key);
     cdem_case_leave(r, before);
   }
-  const char *dot = strrchr(r->path, '.'); /* the name, which check_name has measured */
-  snprintf(material->name, sizeof material->name, "%.63s", dot != NULL ? dot + 1 : r->path);
-  cdem_yaml_material(&r->yaml, &r->units, at, mark, others, count, material);
 }
 
 static void report_unknown(cdem_case_reader *r, const cdem_yaml_node *name,
@@ -203,6 +231,10 @@ static void read_section(cdem_case_reader *r, const cdem_yaml_node *at, const cd
     memcpy(values, &name, sizeof name);
   if (r->status != CDEM_OK || read_without_map(r, at, section, values))
     return;
+  const cdem_yaml_node *opening = cdem_yaml_child(&r->yaml, at);
+  if (opening != NULL && opening->origin == 0)
+    r->status = cdem_case_places_add_opening(r->read->places, r->path, opening->line,
+                                             opening->column, r->fault);
   const cdem_case_key *material = NULL;
   for (int k = 0; k < section->keys; k++)
     if (section->key[k].kind == CDEM_KEY_MATERIAL)
@@ -220,7 +252,8 @@ static void read_section(cdem_case_reader *r, const cdem_yaml_node *at, const cd
   }
   report_missing(r, at, mark, section);
   if (material != NULL)
-    read_material_part(r, at, mark, section, (cdem_material *)((char *)values + material->offset));
+    read_material_part(r, at, mark, section, material,
+                       (cdem_material *)((char *)values + material->offset));
 }
 
 /* ---- the file ---- */
@@ -256,9 +289,10 @@ static void settle(cdem_case *read) {
     v->cosserat = v->cosserat || cdem_material_is_cosserat(&v->materials.item[m].material);
 }
 
-static cdem_status read_all(cdem_case_reader *r, const char *path, int overrides,
+static cdem_status read_all(cdem_case_reader *r, const char *path, const char *text, int overrides,
                             const char *const *override) {
-  CDEM_TRY(cdem_yaml_read(path, &r->yaml, r->fault));
+  CDEM_TRY(text != NULL ? cdem_yaml_read_text(path, text, &r->yaml, r->fault)
+                        : cdem_yaml_read(path, &r->yaml, r->fault));
   r->yaml.overrides = overrides;
   r->yaml.override = override;
   r->read->path = cdem_copy_text(path, r->fault);
@@ -273,14 +307,14 @@ static cdem_status read_all(cdem_case_reader *r, const char *path, int overrides
   CDEM_TRY(r->status);
   CDEM_TRY(cdem_yaml_finish(&r->yaml, r->fault));
   settle(r->read);
-  return cdem_case_check(r->read, r->fault);
+  return r->unchecked ? CDEM_OK : cdem_case_check(r->read, r->fault);
 }
 
-cdem_status cdem_read_case(const char *path, int overrides, const char *const *override,
-                           cdem_case *read, cdem_fault *fault) {
+static cdem_status read_any(cdem_case_reader r, const char *path, const char *text, int overrides,
+                            const char *const *override, cdem_case *read) {
   cdem_case made = {0};
-  cdem_case_reader r = {.read = &made, .fault = fault};
-  cdem_status status = read_all(&r, path, overrides, override);
+  r.read = &made;
+  cdem_status status = read_all(&r, path, text, overrides, override);
   cdem_yaml_release(&r.yaml);
   cdem_units_release(&r.units);
   if (status == CDEM_OK)
@@ -288,4 +322,19 @@ cdem_status cdem_read_case(const char *path, int overrides, const char *const *o
   else
     cdem_case_release(&made);
   return status;
+}
+
+cdem_status cdem_read_case(const char *path, int overrides, const char *const *override,
+                           cdem_case *read, cdem_fault *fault) {
+  return read_any((cdem_case_reader){.fault = fault}, path, NULL, overrides, override, read);
+}
+
+cdem_status cdem_read_case_text(const char *path, const char *text, cdem_case *read,
+                                cdem_fault *fault) {
+  return read_any((cdem_case_reader){.fault = fault}, path, text, 0, NULL, read);
+}
+
+cdem_status cdem_case_read_unchecked(const char *path, const char *text, cdem_case *read,
+                                     cdem_fault *fault) {
+  return read_any((cdem_case_reader){.fault = fault, .unchecked = true}, path, text, 0, NULL, read);
 }

@@ -178,7 +178,7 @@ cdem_status cdem_write_case_help(FILE *stream, const char *topic, cdem_fault *fa
 /* ---- the reference page ---- */
 
 static void put_row(FILE *stream, const cdem_case_entry *entry) {
-  static const char *const tags[] = {"", "grain", "domain"};
+  static const char *const tags[] = {"", "grain", "grain", "domain"};
   char kind[CDEM_CASE_PHRASE], otherwise[CDEM_CASE_PHRASE], range[CDEM_CASE_PHRASE];
   cdem_case_kind_text(&entry->key, kind);
   cdem_case_default_text(&entry->key, otherwise);

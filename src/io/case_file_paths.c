@@ -45,25 +45,12 @@ static char *quoted(const char *path, cdem_fault *fault) {
   return text;
 }
 
-/* The byte of a place; columns count characters. NULL: the text has no such place. */
-static const char *find_place(const char *text, int line, int column) {
-  for (; line > 1 && text != NULL; line--) {
-    text = strchr(text, '\n');
-    text = text != NULL ? text + 1 : NULL;
-  }
-  for (; column > 1 && text != NULL && *text != '\0' && *text != '\n'; column--)
-    do
-      text++;
-    while ((*text & 0xc0) == 0x80);
-  return text;
-}
-
 /* Where the name stands in the text of the case, without quotes; -1 where it does not stand there
  * on one line and letter by letter. */
 static int64_t find_name(const cdem_case *cases, const named_file *named) {
   const cdem_case_place *place = cdem_case_places_find(cases->places, named->key);
   const char *at = place != NULL && place->override < 0 && cases->places->overrides == 0
-                       ? find_place(cases->source, place->line, place->column)
+                       ? cdem_case_text_at(cases->source, place->line, place->column)
                        : NULL;
   if (at == NULL)
     return -1;

@@ -14,9 +14,15 @@ typedef struct {
   cdem_units units;
   cdem_case *read;
   char path[CDEM_CASE_PATH]; /* of the value at hand: "interfaces[0].tension" */
+  bool unchecked;            /* keys that exclude each other may stand side by side */
   cdem_status status;
   cdem_fault *fault;
 } cdem_case_reader;
+
+/* As cdem_read_case_text, without the checks that join several keys: for tests of the tables, which
+ * give all keys at once. */
+cdem_status cdem_case_read_unchecked(const char *path, const char *text, cdem_case *read,
+                                     cdem_fault *fault);
 
 /* Appends to the path; give the result to cdem_case_leave. */
 __attribute__((format(printf, 2, 3))) size_t cdem_case_enter(cdem_case_reader *r,

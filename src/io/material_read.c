@@ -36,10 +36,17 @@ bool cdem_yaml_quantity(cdem_yaml *yaml, cdem_units *units, const cdem_yaml_node
     cdem_yaml_error(yaml, at, "'%s' must be a number, not %s", key, cdem_yaml_kind_name(at->kind));
     return false;
   }
-  if (cdem_units_parse(units, at->text, dimension, value, &fault) == CDEM_OK)
-    return true;
-  cdem_yaml_error(yaml, at, "%s: %s", key, fault.message);
-  return false;
+  if (cdem_units_parse(units, at->text, dimension, value, &fault) != CDEM_OK) {
+    cdem_yaml_error(yaml, at, "%s: %s", key, fault.message);
+    return false;
+  }
+  if (cdem_grow(&yaml->number, &yaml->number_capacity, yaml->numbers + 1, sizeof *yaml->number,
+                &fault) == CDEM_OK)
+    yaml->number[yaml->numbers++] =
+        (cdem_yaml_number){(int32_t)(at - yaml->node), dimension, *value};
+  else
+    yaml->lacks_memory = true;
+  return true;
 }
 
 static bool read_axis(const reading *r, const cdem_yaml_node *at, const char *key, double axis[3]) {

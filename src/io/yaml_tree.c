@@ -69,6 +69,8 @@ void cdem_yaml_unknown(cdem_yaml *yaml, const cdem_yaml_node *at, const char *wh
 }
 
 cdem_status cdem_yaml_finish(const cdem_yaml *yaml, cdem_fault *fault) {
+  CDEM_REQUIRE(!yaml->lacks_memory, fault, CDEM_MEMORY, "out of memory while reading '%s'",
+               yaml->path);
   if (yaml->errors == 0)
     return CDEM_OK;
   char more[48] = "";
@@ -307,9 +309,16 @@ void cdem_yaml_release(cdem_yaml *yaml) {
   for (int64_t i = 0; i < yaml->nodes; i++)
     free(yaml->node[i].text);
   free(yaml->node);
+  free(yaml->number);
   free(yaml->source);
   free(yaml->path);
   *yaml = (cdem_yaml){0};
+}
+
+static cdem_status read_tree(cdem_yaml *yaml, cdem_fault *fault) {
+  CDEM_TRY(parse(yaml, yaml->source, (size_t)yaml->bytes, fault));
+  CDEM_REQUIRE(yaml->nodes > 0, fault, CDEM_INPUT, "cannot read '%s': it is empty", yaml->path);
+  return CDEM_OK;
 }
 
 cdem_status cdem_yaml_read(const char *path, cdem_yaml *yaml, cdem_fault *fault) {
@@ -317,7 +326,15 @@ cdem_status cdem_yaml_read(const char *path, cdem_yaml *yaml, cdem_fault *fault)
   if (yaml->path == NULL)
     return CDEM_MEMORY;
   CDEM_TRY(read_source(yaml, fault));
-  CDEM_TRY(parse(yaml, yaml->source, (size_t)yaml->bytes, fault));
-  CDEM_REQUIRE(yaml->nodes > 0, fault, CDEM_INPUT, "cannot read '%s': it is empty", path);
-  return CDEM_OK;
+  return read_tree(yaml, fault);
+}
+
+cdem_status cdem_yaml_read_text(const char *path, const char *text, cdem_yaml *yaml,
+                                cdem_fault *fault) {
+  yaml->path = cdem_copy_text(path, fault);
+  yaml->source = cdem_copy_text(text, fault);
+  if (yaml->path == NULL || yaml->source == NULL)
+    return CDEM_MEMORY;
+  yaml->bytes = (int64_t)strlen(text);
+  return read_tree(yaml, fault);
 }

@@ -13,6 +13,7 @@
 #define CDEM_IO_YAML_TREE_H
 
 #include "base/base.h"
+#include "base/quantity.h"
 
 #include <stdbool.h>
 
@@ -28,12 +29,22 @@ typedef struct {
   int origin; /* 0: the file; else 1 + the override it came from */
 } cdem_yaml_node;
 
+/* A number that was read from a node. */
+typedef struct {
+  int32_t node;
+  cdem_dimension dimension;
+  double value; /* SI */
+} cdem_yaml_number;
+
 typedef struct {
   char *path;
   char *source; /* the whole file, ended by a zero */
   int64_t bytes, source_capacity;
   cdem_yaml_node *node; /* [0] is the root */
   int64_t nodes, capacity;
+  cdem_yaml_number *number; /* [numbers] in the order of reading, good ones alone */
+  int64_t numbers, number_capacity;
+  bool lacks_memory; /* a number could not be noted: cdem_yaml_finish fails */
   int errors;
   cdem_fault report; /* the errors so far */
   int origin;        /* of the text being read */
@@ -44,6 +55,9 @@ typedef struct {
 /* CDEM_FILE: cannot be read. CDEM_INPUT: no YAML at all. Errors that leave a tree behind are
  * collected. Zero-initialise; release at any stage. */
 cdem_status cdem_yaml_read(const char *path, cdem_yaml *yaml, cdem_fault *fault);
+/* The same from a text in place of the file of this path. */
+cdem_status cdem_yaml_read_text(const char *path, const char *text, cdem_yaml *yaml,
+                                cdem_fault *fault);
 void cdem_yaml_release(cdem_yaml *yaml);
 
 /* Reads the value of an override (yaml->override[index] from byte `from` on) into the same tree;
@@ -60,7 +74,7 @@ void cdem_yaml_unknown(cdem_yaml *yaml, const cdem_yaml_node *at, const char *wh
 /* Adds an error of an override as a whole. */
 __attribute__((format(printf, 3, 4))) void cdem_yaml_override_error(cdem_yaml *yaml, int index,
                                                                     const char *format, ...);
-/* CDEM_INPUT with all errors, if there are any. */
+/* CDEM_INPUT with all errors, if there are any; CDEM_MEMORY. */
 cdem_status cdem_yaml_finish(const cdem_yaml *yaml, cdem_fault *fault);
 
 static inline const cdem_yaml_node *cdem_yaml_root(const cdem_yaml *yaml) {

@@ -57,11 +57,16 @@ static void fill_periodic(const cdem_run_grains *g, const cdem_packing *packing,
 /* `compact`, as the packing wants it. */
 static cdem_compaction compaction_of(const cdem_run_grains *g,
                                      const cdem_packing_options *options) {
-  const cdem_case_compact *wanted = &cdem_run_grains_values(g)->grains.packing.compact;
+  const cdem_case_grains *grains = &cdem_run_grains_values(g)->grains;
+  const cdem_case_compact *wanted = &grains->packing.compact;
+  int usual = cdem_run_grains_material(g, grains->material);
+  double density = usual >= 0 ? grains->materials.item[usual].density : NAN;
   cdem_compaction compaction = {.fraction = isnan(wanted->fraction) ? 0.0 : wanted->fraction,
                                 .pressure = isnan(wanted->pressure) ? 0.0 : wanted->pressure,
                                 .height = isnan(wanted->height) ? 0.0 : wanted->height,
+                                .thickness = cdem_run_grains_values(g)->thickness,
                                 .stiffness = isnan(wanted->stiffness) ? 0.0 : wanted->stiffness,
+                                .density = isnan(density) ? 0.0 : density,
                                 .friction = wanted->friction,
                                 .restitution = wanted->restitution,
                                 .threads = cdem_run_grains_threads(g),

@@ -47,7 +47,8 @@ static void check_line(void *context, const char *path, const cdem_case_key *key
                 key->kind == CDEM_KEY_SERIES || key->kind == CDEM_KEY_COMPONENTS;
   if (key->help == NULL || key->example == NULL || *key->help == '\0' || *key->example == '\0')
     fail_msg("%s has no help or no example", path);
-  if ((number && has_dimension(key->dimension)) != (key->tag != CDEM_TAG_NONE))
+  bool counts = key->kind == CDEM_KEY_INTEGER && key->tag == CDEM_TAG_GRAIN; /* grains */
+  if (((number && has_dimension(key->dimension)) || counts) != (key->tag != CDEM_TAG_NONE))
     fail_msg("%s has a dimension without a tag or a tag without one", path);
   if (key->kind == CDEM_KEY_NUMBER && isnan(key->fallback) && !key->required &&
       key->otherwise == NULL)

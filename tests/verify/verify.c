@@ -81,7 +81,7 @@ static void unknown_groups_are_named(void **state) {
   check_fails(cdem_verify_run(typo, 2, &options, &list, &fault), CDEM_USAGE,
               "there is no group 'sprngs'; did you mean 'springs'?");
   check_fails(cdem_verify_run(strange, 1, &options, &list, &fault), CDEM_USAGE,
-              "there is no group 'zzz'; groups are springs, cdem, dem, bsm");
+              "there is no group 'zzz'; groups are springs, cdem, dem, bsm, scaling");
   assert_int_equal(list.checks, 0);
 }
 
