@@ -245,7 +245,7 @@ typedef struct {
   double spacing, penalty, contact_damping;
   double young, poisson, thickness, bending, damping;
   double areal_density;
-  int edges; /* free clamped */
+  int edges; /* clamped free */
 } cdem_case_membrane;
 
 /* triaxial: */
@@ -255,7 +255,8 @@ typedef struct {
   double consolidation;         /* s; NaN: by dimensionless numbers */
   double rate, inertial_number; /* 1/s, -; NaN: the other one, 1e-3 */
   double strain;
-  char *material; /* NULL: the first */
+  char *material;      /* NULL: the first */
+  char *side_material; /* NULL: `material` */
   cdem_case_membrane membrane;
 } cdem_case_triaxial;
 enum { CDEM_TRIAXIAL_MEMBRANE, CDEM_TRIAXIAL_CYLINDER }; /* the choices of `boundary` */

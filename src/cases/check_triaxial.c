@@ -43,5 +43,9 @@ cdem_status cdem_case_check_triaxial(const cdem_case *cases, cdem_fault *fault) 
   if (t->boundary == CDEM_TRIAXIAL_CYLINDER && cdem_case_given(cases, "triaxial.membrane"))
     return cdem_case_fail(cases, "triaxial.membrane", CDEM_INPUT, fault,
                           "'membrane' has a meaning beside 'boundary: membrane' only");
-  return cdem_case_check_grain_material(cases, "triaxial.material", t->material, fault);
+  if (t->boundary == CDEM_TRIAXIAL_MEMBRANE && t->side_material != NULL)
+    return cdem_case_fail(cases, "triaxial.side_material", CDEM_INPUT, fault,
+                          "'side_material' has a meaning beside 'boundary: cylinder' only");
+  CDEM_TRY(cdem_case_check_grain_material(cases, "triaxial.material", t->material, fault));
+  return cdem_case_check_grain_material(cases, "triaxial.side_material", t->side_material, fault);
 }

@@ -2,7 +2,7 @@
 #include "cases/tables.h"
 
 static const char *const boundaries[] = {"membrane", "cylinder", NULL};
-static const char *const edges[] = {"free", "clamped", NULL};
+static const char *const edges[] = {"clamped", "free", NULL};
 
 #define MEMBRANE(member) AT(cdem_case_membrane, member)
 static const cdem_case_key membrane[] = {
@@ -36,8 +36,10 @@ static const cdem_case_key membrane[] = {
      .help = "Mass of the membrane by area: heavy enough that it does not limit the step.",
      .example = "80 kg/m2"},
     {MEMBRANE(edges), .kind = CDEM_KEY_CHOICE, .choice = edges,
-     .help = "What its ends do across the axis: they always follow the plates along it.",
-     .example = "clamped"},
+     .help =
+         "What its ends do across the axis: held where they started, as by the rim of a platen, or "
+         "free. Along the axis they follow the plates.",
+     .example = "free"},
 };
 static const cdem_case_section section_membrane =
     SECTION("membrane", cdem_case_membrane, membrane,
@@ -48,9 +50,8 @@ static const cdem_case_key keys[] = {
     {TRIAXIAL(pressure), .kind = CDEM_KEY_NUMBER, .dimension = PRESSURE, .fallback = NAN, POSITIVE,
      DOMAIN, .required = true, .help = "Confining pressure.", .example = "0.9 MPa"},
     {TRIAXIAL(boundary), .kind = CDEM_KEY_CHOICE, .choice = boundaries,
-     .help =
-         "The side of the specimen: a flexible membrane, or a rigid smooth cylinder whose radius "
-         "a servo finds, which is quicker.",
+     .help = "The side of the specimen: a flexible membrane, or a rigid cylinder whose radius "
+             "a servo finds, which is quicker.",
      .example = "cylinder"},
     {TRIAXIAL(consolidation), .kind = CDEM_KEY_NUMBER, .dimension = TIME, .fallback = NAN, POSITIVE,
      DOMAIN, .otherwise = "50 mean diameter * sqrt(density/pressure)",
@@ -68,11 +69,15 @@ static const cdem_case_key keys[] = {
     {TRIAXIAL(strain), .kind = CDEM_KEY_NUMBER, .fallback = 0.15, BETWEEN(0, 3), .above = true,
      .help = "Logarithmic axial strain at the end.", .example = "0.2"},
     {TRIAXIAL(material), .kind = CDEM_KEY_TEXT, .otherwise = "the first of grains.materials",
-     .help = "Material of plates and cylinder, one of grains.materials; `contacts` says how grains "
-             "touch it.",
+     .help =
+         "Material of the plates, one of grains.materials; `contacts` says how grains touch it.",
      .example = "steel"},
+    {TRIAXIAL(side_material), .kind = CDEM_KEY_TEXT, .otherwise = "that of the plates",
+     .help = "Material of the cylinder, one of grains.materials. Without friction in its contacts, "
+             "else it carries a part of the axial force.",
+     .example = "teflon"},
     {TRIAXIAL(membrane), .kind = CDEM_KEY_SECTION, .section = &section_membrane,
-     .help = "The flexible membrane.", .example = "{edges: clamped}"},
+     .help = "The flexible membrane.", .example = "{edges: free}"},
 };
 const cdem_case_section cdem_section_triaxial =
     SECTION("triaxial", cdem_case_triaxial, keys,

@@ -287,7 +287,7 @@ bool cdem_dem_specimen(const cdem_dem *dem, cdem_specimen *now) {
   }
   cdem_membrane_shape shape;
   cdem_membrane_shape_now(&b->membrane, &shape);
-  now->lateral = 0.5 * shape.push / now->volume;
+  now->lateral = shape.lateral;
   for (int32_t k = 0; k < b->membrane.rings; k++)
     now->touching += b->touching_all[k];
   return true;

@@ -33,9 +33,9 @@ typedef struct {
   double height, volume; /* m, m^3 */
   double area;           /* V/H, m^2 */
   double axial, bottom;  /* force of the grains on the high and the low plate over V/H */
-  double lateral;        /* sum of rho . f/(2 V): mean of the radial and the hoop stress that the
-                            forces f on the side make */
-  int32_t touching;      /* nodes of the membrane that touch a grain */
+  double lateral;   /* mean of what the grains push the side out by; of a membrane mostly in its
+                       middle (cdem_membrane_shape) */
+  int32_t touching; /* nodes of the membrane that touch a grain */
 } cdem_specimen;
 
 #endif

@@ -1,5 +1,6 @@
 #include "dem/frames.h"
 
+#include "dem/frames_membrane.h"
 #include "dem/measures_kernels.h"
 #include "dem/surface_walls.h"
 #include "results/frame_draft.h"
@@ -7,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One state of grains becomes up to three frames. */
+/* One state of grains becomes up to four frames. */
 typedef struct {
   cdem_frame_draft draft;
   const cdem_dem *dem;
@@ -195,5 +196,8 @@ cdem_status cdem_dem_frames(const cdem_dem *dem, const cdem_strain_reference *st
       status = walls_frame(&m, &walls, sink);
   }
   cdem_wall_surface_release(&walls);
+  const cdem_membrane *membrane = cdem_dem_membrane(dem);
+  if (status == CDEM_OK && membrane != NULL)
+    status = cdem_membrane_frame(membrane, dem->time, index, sink, fault);
   return status;
 }

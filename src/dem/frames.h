@@ -7,6 +7,7 @@
  * the image): force on the first, push, normal, overlap, sliding, bonded, wall (its index, -1:
  * between grains) walls     lines or facets where they are now (endless ones end where all else
  * does): wall, velocity at points
+ *     membrane  its triangles (frames_membrane.h)
  */
 #ifndef CDEM_DEM_FRAMES_H
 #define CDEM_DEM_FRAMES_H

@@ -67,12 +67,13 @@ typedef struct {
 } cdem_membrane_energies;
 
 typedef struct {
-  double volume; /* enclosed, with fans to the middle of the end rings, m^3 */
-  double rate;   /* dV/dt with v (of half a step before), m^3/s */
-  double area;   /* of the faces, m^2 */
-  double height; /* between the means of the end rings, m */
-  double push;   /* sum of rho . contact over the nodes, rho their distance vector from the axis
-                    through the middle of their ring, N m; over 2V: the mean lateral stress */
+  double volume;  /* enclosed, with fans to the middle of the end rings, m^3 */
+  double rate;    /* dV/dt with v (of half a step before), m^3/s */
+  double area;    /* of the faces, m^2 */
+  double height;  /* between the means of the end rings, m */
+  double lateral; /* what the host's contacts push outwards by, Pa: sum of w rho . contact over sum
+                     of w rho . (area vector), rho from the middle of the ring, w = sin^2 from 0 at
+                     the ends to 1: clamped ends carry a part of the pressure next to them */
 } cdem_membrane_shape;
 
 typedef struct cdem_membrane_store cdem_membrane_store;

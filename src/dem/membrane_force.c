@@ -271,6 +271,25 @@ double cdem_membrane_volume(const cdem_membrane *m) {
   return sum + ends.volume;
 }
 
+/* Weighed by sin^2 along the tube: what bending hands on from a ring to those near it then changes
+ * little, and the ends do not count. */
+static double lateral_of(const cdem_membrane *m) {
+  const double pi = 3.14159265358979323846;
+  double push = 0.0, shadow = 0.0;
+  for (int64_t i = 0; i < m->nodes; i++) {
+    int64_t ring = i / m->around;
+    const double *mean = m->store->mean + 6 * ring;
+    double normal[3], weight = sin(pi * (double)ring / (m->rings - 1));
+    normal_of(m, i, normal);
+    for (int c = 0; c < 2; c++) {
+      double rho = weight * weight * (m->x[3 * i + c] - mean[c]);
+      push += m->contact[3 * i + c] * rho;
+      shadow += normal[c] * rho;
+    }
+  }
+  return shadow > 0.0 ? push / shadow : 0.0;
+}
+
 void cdem_membrane_shape_now(const cdem_membrane *m, cdem_membrane_shape *shape) {
   const double *low = m->store->mean, *high = low + 6 * (int64_t)(m->rings - 1);
   *shape = (cdem_membrane_shape){.height = high[2] - low[2]};
@@ -284,9 +303,5 @@ void cdem_membrane_shape_now(const cdem_membrane *m, cdem_membrane_shape *shape)
     for (int k = 0; k < 3; k++)
       shape->rate += cdem_dot3(normal, m->v + 3 * (int64_t)node[k]) / 3.0;
   }
-  for (int64_t i = 0; i < m->nodes; i++) {
-    const double *mean = m->store->mean + 6 * (i / m->around);
-    for (int c = 0; c < 2; c++)
-      shape->push += m->contact[3 * i + c] * (m->x[3 * i + c] - mean[c]);
-  }
+  shape->lateral = lateral_of(m);
 }

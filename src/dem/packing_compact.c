@@ -103,6 +103,12 @@ static cdem_status check(const cdem_packing_options *o, const cdem_compaction *c
                "compaction: the grains fill %.4f of their box before it begins, more than the %.4f "
                "wanted",
                start, c->fraction);
+  double height = o->high[2] - o->low[2];
+  double end = c->height > 0.0 ? start * (height / c->height) : 0.0;
+  CDEM_REQUIRE(end < 1.0, fault, CDEM_INPUT,
+               "compaction: the grains would fill %.4f of the cylinder at a height of %g m; take "
+               "fewer, smaller ones or a higher one",
+               end, c->height);
   return CDEM_OK;
 }
 

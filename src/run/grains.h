@@ -69,8 +69,10 @@ cdem_status cdem_run_grains_cell(cdem_run_grains *g, cdem_fault *fault);
 /* grains_triaxial.c: plates, side and plan of a triaxial test; steps with its stages; its columns
  */
 cdem_status cdem_run_grains_triaxial(cdem_run_grains *g, cdem_fault *fault);
+void cdem_run_grains_triaxial_materials(cdem_run_grains *g,
+                                        void (*take)(cdem_run_grains *g, int from));
 cdem_status cdem_run_grains_advance(cdem_run_grains *g, int64_t steps, cdem_fault *fault);
-void cdem_run_grains_triaxial_columns(const cdem_run_grains *g, cdem_run_row *row);
+void cdem_run_grains_triaxial_columns(cdem_run_grains *g, cdem_run_row *row);
 /* grains_contacts.c: which materials are used, and the numbers of each pair */
 cdem_status cdem_run_grains_materials(cdem_run_grains *g, cdem_fault *fault);
 cdem_status cdem_run_grains_contacts(cdem_run_grains *g, cdem_fault *fault);

@@ -45,7 +45,7 @@ cdem_status cdem_run_grains_materials(cdem_run_grains *g, cdem_fault *fault) {
   for (int64_t w = 0; w < v->walls.count; w++)
     take_material(g, cdem_run_grains_material(g, v->walls.item[w].material));
   if (cdem_case_is_triaxial(&g->run->cases))
-    take_material(g, cdem_run_grains_material(g, v->triaxial.material));
+    cdem_run_grains_triaxial_materials(g, take_material);
   for (int m = 0; m < of_grains; m++) {
     const cdem_case_grain_material *from = &v->grains.materials.item[g->used[m]];
     if (isnan(from->density))

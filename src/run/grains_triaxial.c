@@ -41,9 +41,23 @@ static void fit_cylinder(cdem_run_grains *g) {
 
 /* Plates and a cylinder look for contacts at this part of the speed sqrt(pressure/density). */
 static const double part_of_speed = 0.05;
+/* A servo that must go on moving lags behind by the force of the dashpots, by its gain. */
+static const double servo_gain = 0.8;
 
-static void make_walls(cdem_run_grains *g, int material) {
+static int side_material(const cdem_run_grains *g) {
   const cdem_case_triaxial *t = &cdem_run_grains_values(g)->triaxial;
+  return cdem_run_grains_material(g, t->side_material != NULL ? t->side_material : t->material);
+}
+
+void cdem_run_grains_triaxial_materials(cdem_run_grains *g,
+                                        void (*take)(cdem_run_grains *g, int from)) {
+  take(g, cdem_run_grains_material(g, cdem_run_grains_values(g)->triaxial.material));
+  take(g, side_material(g));
+}
+
+static void make_walls(cdem_run_grains *g) {
+  const cdem_case_triaxial *t = &cdem_run_grains_values(g)->triaxial;
+  int plates = cdem_run_grains_material(g, t->material);
   double speed = part_of_speed * sqrt(t->pressure / g->triaxial.sizes.density);
   double middle[3] = {0.5 * (g->low[0] + g->high[0]), 0.5 * (g->low[1] + g->high[1]), 0.0};
   g->wall[LOW] = (cdem_wall){.name = "bottom", .shape = CDEM_WALL_PLANE, .normal = {0, 0, 1}};
@@ -51,6 +65,7 @@ static void make_walls(cdem_run_grains *g, int material) {
                               .shape = CDEM_WALL_PLANE,
                               .normal = {0, 0, -1},
                               .servo = {0, 0, 1},
+                              .servo_gain = servo_gain,
                               .servo_speed = speed};
   if (g->walls > SIDE)
     g->wall[SIDE] =
@@ -59,9 +74,10 @@ static void make_walls(cdem_run_grains *g, int material) {
                     .axis = {0, 0, 1},
                     .radius = 0.25 * ((g->high[0] - g->low[0]) + (g->high[1] - g->low[1])),
                     .servo_radius = true,
+                    .servo_gain = servo_gain,
                     .servo_speed = speed};
   for (int w = 0; w < g->walls; w++) {
-    g->wall[w].material = material;
+    g->wall[w].material = g->model_of[w == SIDE ? side_material(g) : plates];
     memcpy(g->wall[w].center, middle, sizeof middle);
     g->wall[w].center[2] = w == HIGH ? g->high[2] : g->low[2];
   }
@@ -81,7 +97,7 @@ cdem_status cdem_run_grains_triaxial(cdem_run_grains *g, cdem_fault *fault) {
   g->walls = cylinder ? 3 : 2;
   CDEM_NEW(g->wall, g->walls, fault);
   CDEM_NEW(g->facets, g->walls, fault);
-  make_walls(g, g->model_of[cdem_run_grains_material(g, t->material)]);
+  make_walls(g);
   g->confinement = (cdem_confinement){.low = LOW,
                                       .high = HIGH,
                                       .side = SIDE,
@@ -116,7 +132,7 @@ cdem_status cdem_run_grains_advance(cdem_run_grains *g, int64_t steps, cdem_faul
   return cdem_dem_steps(&g->dem, steps, fault);
 }
 
-void cdem_run_grains_triaxial_columns(const cdem_run_grains *g, cdem_run_row *row) {
+void cdem_run_grains_triaxial_columns(cdem_run_grains *g, cdem_run_row *row) {
   cdem_run_specimen specimen = {0};
   cdem_specimen at = {0};
   if (!g->has_triaxial)

@@ -80,7 +80,7 @@ static cdem_status add_usual(cdem_case_values *v, cdem_fault *fault) {
       {"strain_at_peak", "stress_ratio", "axial_strain", CDEM_TAKE_PLACE_OF_MAX, 1.0},
       {"last_stress_ratio", "stress_ratio", NULL, CDEM_TAKE_LAST, 1.0},
       {"contraction", "volumetric_strain", NULL, CDEM_TAKE_MAX, 1.0},
-      {"dilation", "volumetric_strain", NULL, CDEM_TAKE_MAX, -1.0}};
+      {"dilation", "dilation", NULL, CDEM_TAKE_MAX, 1.0}};
   static const usual_curve curves[] = {
       {"stress_ratio", "Stress ratio against axial strain", "stress_ratio", "stress ratio"},
       {"volumetric_strain", "Volumetric strain (contraction positive) against axial strain",
@@ -139,7 +139,7 @@ void cdem_run_triaxial_membrane(const cdem_run_setup *run, const cdem_run_triaxi
                                      .damping = or_zero(from->damping),
                                      .penalty = or_zero(from->penalty),
                                      .contact_damping = or_zero(from->contact_damping),
-                                     .clamped = from->edges == 1};
+                                     .clamped = from->edges == 0};
   for (int c = 0; c < 2; c++)
     options->center[c] = 0.5 * (low[c] + high[c]);
   options->pressure = plan->pressure;
@@ -163,16 +163,18 @@ double cdem_run_triaxial_shear(cdem_run_triaxial *plan, double height, double vo
   return -plan->rate * height;
 }
 
-void cdem_run_triaxial_columns(const cdem_run_triaxial *plan, const cdem_run_specimen *s,
+void cdem_run_triaxial_columns(cdem_run_triaxial *plan, const cdem_run_specimen *s,
                                cdem_run_row *row) {
   double axial = NAN, volumetric = NAN, ratio = NAN;
   if (plan->shears) {
     axial = log(plan->height / s->height);
     volumetric = log(plan->volume / s->volume);
+    plan->contraction = fmax(plan->contraction, volumetric);
     ratio = 3.0 * (s->axial - s->pressure) / (s->axial + 2.0 * s->pressure);
   }
   cdem_run_put(row, "", axial, "axial_strain");
   cdem_run_put(row, "", volumetric, "volumetric_strain");
+  cdem_run_put(row, "", plan->shears ? plan->contraction - volumetric : NAN, "dilation");
   cdem_run_put(row, "", ratio, "stress_ratio");
   cdem_run_put(row, "Pa", s->axial, "axial_stress");
   cdem_run_put(row, "Pa", s->bottom, "bottom_stress");
@@ -193,16 +195,17 @@ void cdem_run_triaxial_columns(const cdem_run_triaxial *plan, const cdem_run_spe
 
 cdem_status cdem_run_triaxial_save(const cdem_run_triaxial *plan, cdem_state *state,
                                    cdem_fault *fault) {
-  const double real[3] = {plan->shears, plan->height, plan->volume};
-  return cdem_state_add_copy(state, "triaxial/stage", CDEM_ARRAY_REAL, 3, real, fault);
+  const double real[4] = {plan->shears, plan->height, plan->volume, plan->contraction};
+  return cdem_state_add_copy(state, "triaxial/stage", CDEM_ARRAY_REAL, 4, real, fault);
 }
 
 cdem_status cdem_run_triaxial_restore(cdem_run_triaxial *plan, const cdem_state *state,
                                       cdem_fault *fault) {
-  double real[3];
-  CDEM_TRY(cdem_state_get(state, "triaxial/stage", CDEM_ARRAY_REAL, 3, real, fault));
+  double real[4];
+  CDEM_TRY(cdem_state_get(state, "triaxial/stage", CDEM_ARRAY_REAL, 4, real, fault));
   plan->shears = real[0] != 0.0;
   plan->height = real[1];
   plan->volume = real[2];
+  plan->contraction = real[3];
   return CDEM_OK;
 }

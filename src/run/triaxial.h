@@ -32,6 +32,7 @@ typedef struct {
   cdem_series pressure; /* Pa: rises from a tenth over the first half of the consolidation */
   bool shears;
   double height, volume; /* H0, V0 */
+  double contraction;    /* the largest volumetric strain of the rows so far */
 } cdem_run_triaxial;
 
 /* What a solver says of its specimen now; compression positive. */
@@ -53,7 +54,7 @@ void cdem_run_triaxial_membrane(const cdem_run_setup *run, const cdem_run_triaxi
 int64_t cdem_run_triaxial_steps(const cdem_run_triaxial *plan, const cdem_run_now *now);
 /* The shear begins; returns the velocity of the upper plate, m/s. */
 double cdem_run_triaxial_shear(cdem_run_triaxial *plan, double height, double volume);
-void cdem_run_triaxial_columns(const cdem_run_triaxial *plan, const cdem_run_specimen *specimen,
+void cdem_run_triaxial_columns(cdem_run_triaxial *plan, const cdem_run_specimen *specimen,
                                cdem_run_row *row);
 cdem_status cdem_run_triaxial_save(const cdem_run_triaxial *plan, cdem_state *state,
                                    cdem_fault *fault);

@@ -1,0 +1,112 @@
+/* Triaxial tests from the case to the folder: stages, stresses, scaled bits, broken runs. */
+#include "run/resume.h"
+#include "run/triaxial_box.h"
+
+#include <math.h>
+
+static cdem_run_summary run_it(const char *name, const char *folder) {
+  cdem_fault fault = {0};
+  cdem_run_summary summary;
+  check_ok(run_case(name, folder, 0, NULL, &summary, &fault));
+  return summary;
+}
+
+/* The last row before the shear: all sides carry the pressure. Then the plate goes down by the rate
+ * times H0 a second, until ln(H0/H) is the strain; meanwhile the side keeps the pressure. */
+static void check_stages(const char *folder, double strain, double side, double inertial) {
+  const double pressure = 0.5e6;
+  cdem_table table = read_rows(folder);
+  int64_t last = table.rows - 1, before = 0;
+  while (before < last && isnan(row_value(&table, before + 1, "axial_strain")))
+    before++;
+  assert_true(before > 10 && before < last - 10);
+  check_near(row_value(&table, before, "confining_pressure"), pressure, 1e-12, 0.0);
+  check_near(row_value(&table, before, "axial_stress"), pressure, 0.03, 0.0);
+  /* nodes that sit fast between grains hand on a little from the moving plate to the end rings */
+  check_near(row_value(&table, before, "bottom_stress"), pressure, 0.05, 0.0);
+  check_near(row_value(&table, before, "lateral_stress"), pressure, 0.01, 0.0);
+  check_near(row_value(&table, last, "axial_strain"), strain, 2e-3, 0.0);
+  check_near(row_value(&table, last, "lateral_stress"), pressure, side, 0.0);
+  check_near(row_value(&table, last, "inertial_number"), inertial, 0.06, 0.0);
+  double height = row_value(&table, last, "height"), volume = row_value(&table, last, "volume");
+  double axial = row_value(&table, last, "axial_stress"), sum = axial + 2.0 * pressure;
+  check_near(row_value(&table, last, "stress_ratio"), 3.0 * (axial - pressure) / sum, 1e-12, 0.0);
+  check_near(row_value(&table, last, "wall.top.fz"), axial * volume / height, 1e-12, 0.0);
+  assert_true(row_value(&table, last, "stress_ratio") > 0.2);
+  cdem_table_release(&table);
+}
+
+static void a_membrane_keeps_its_pressure(void **state) {
+  (void)state;
+  write_triaxial("box.yaml", 1.0, "{pressure: 0.5 MPa, inertial_number: 5e-3, strain: 0.05}");
+  cdem_run_summary summary = run_it("box.yaml", "flexible");
+  check_stages("flexible", 0.05, 0.01, 5e-3);
+  check_near(key_value(&summary, "peak_stress_ratio"), 0.8, 0.6, 0.0);
+  assert_true(key_value(&summary, "strain_at_peak") <= 0.0502);
+  assert_true(key_value(&summary, "dilation") >= 0.0);
+  check_below(summary.energy_error, 1e-3);
+  assert_true(is_there("flexible/membrane.pvd"));
+  cdem_run_summary_release(&summary);
+}
+
+/* Its servo lags behind by what the dashpots of its contacts take, in proportion to the rate. */
+static void a_rigid_cylinder_keeps_it_too(void **state) {
+  (void)state;
+  write_triaxial("rigid.yaml", 1.0,
+                 "{pressure: 0.5 MPa, inertial_number: 1e-3, strain: 0.03, boundary: cylinder, "
+                 "side_material: smooth}");
+  cdem_run_summary summary = run_it("rigid.yaml", "rigid");
+  check_stages("rigid", 0.03, 0.01, 1e-3);
+  cdem_run_summary_release(&summary);
+}
+
+/* Exactly scaled by 2: times and lengths double, stresses and strains have the same bits. */
+static void a_scaled_specimen_has_scaled_bits(void **state) {
+  (void)state;
+  static const char *const same[] = {"axial_stress", "lateral_stress", "axial_strain",
+                                     "volumetric_strain", "inertial_number"};
+  cdem_table table[2];
+  for (int k = 0; k < 2; k++) {
+    char name[32], folder[32];
+    snprintf(name, sizeof name, "scaled%d.yaml", k);
+    snprintf(folder, sizeof folder, "scaled%d", k);
+    write_triaxial(name, k + 1.0, "{pressure: 0.5 MPa, inertial_number: 2e-2, strain: 0.03}");
+    cdem_run_summary summary = run_it(name, folder);
+    cdem_run_summary_release(&summary);
+    table[k] = read_rows(folder);
+  }
+  assert_int_equal(table[0].rows, table[1].rows);
+  int64_t last = table[0].rows - 1;
+  assert_true(row_value(&table[1], last, "time") == 2.0 * row_value(&table[0], last, "time"));
+  assert_true(row_value(&table[1], last, "height") == 2.0 * row_value(&table[0], last, "height"));
+  assert_true(row_value(&table[1], last, "volume") == 8.0 * row_value(&table[0], last, "volume"));
+  for (size_t i = 0; i < sizeof same / sizeof *same; i++)
+    assert_true(row_value(&table[1], last, same[i]) == row_value(&table[0], last, same[i]));
+  for (int k = 0; k < 2; k++)
+    cdem_table_release(&table[k]);
+}
+
+/* Wherever it was broken, before or in the shear, and whatever the threads. */
+static void a_broken_test_goes_on_to_the_same_bits(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  write_triaxial("box.yaml", 1.0, "{pressure: 0.5 MPa, inertial_number: 2e-2, strain: 0.03}");
+  check_ok(run_until("whole", false, 1 << 30, 1, &fault));
+  for (int part = 0; part < 2; part++) {
+    char folder[32];
+    snprintf(folder, sizeof folder, "broken%d", part);
+    cdem_status status = run_until(folder, false, part == 0 ? 60 : 320, 1, &fault);
+    assert_int_equal(status, CDEM_INTERRUPTED);
+    fault = (cdem_fault){0};
+    check_ok(run_until(folder, true, 1 << 30, 2, &fault));
+    check_same_state("whole", folder);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_membrane_keeps_its_pressure),
+                                     cmocka_unit_test(a_rigid_cylinder_keeps_it_too),
+                                     cmocka_unit_test(a_scaled_specimen_has_scaled_bits),
+                                     cmocka_unit_test(a_broken_test_goes_on_to_the_same_bits)};
+  return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
+}
