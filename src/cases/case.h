@@ -305,7 +305,7 @@ typedef struct {
   char *group;   /* of a body */
   int quantity;  /* displacement velocity force stress; force is the sum, others means over the
                     group;  of grains: velocity stress count mass solid coordination surface_angle
-                    center stress_ratio */
+                    center stress_ratio ...; see the enum */
   int component; /* x y z rotation, xx yy zz yz xz xy, magnitude */
   cdem_case_region region; /* of grains */
   int surface;             /* cdem_surface_kind */
@@ -324,7 +324,13 @@ enum { /* the choices of `quantity` */
        CDEM_PROBE_CENTER,
        CDEM_PROBE_STRESS_RATIO,
        CDEM_PROBE_BAND_ANGLE,
-       CDEM_PROBE_BAND_SLENDERNESS
+       CDEM_PROBE_BAND_SLENDERNESS,
+       CDEM_PROBE_MEAN_PUSH,
+       CDEM_PROBE_BOUNDARY_PUSH,
+       CDEM_PROBE_FABRIC,
+       CDEM_PROBE_ANISOTROPY,
+       CDEM_PROBE_MECHANICAL_COORDINATION,
+       CDEM_PROBE_RATTLERS
 };
 
 /* curves: NAME: a figure drawn from history.csv */

@@ -182,6 +182,10 @@ static cdem_status check_probe_of_body(const cdem_case *cases, const cdem_case_p
   return CDEM_OK;
 }
 
+static bool is_tensor(const cdem_case_probe *probe) {
+  return probe->quantity == CDEM_PROBE_STRESS || probe->quantity == CDEM_PROBE_FABRIC;
+}
+
 static cdem_status check_probe_of_grains(const cdem_case *cases, const cdem_case_probe *probe,
                                          cdem_fault *fault) {
   bool vector = probe->quantity == CDEM_PROBE_VELOCITY || probe->quantity == CDEM_PROBE_CENTER,
@@ -195,14 +199,13 @@ static cdem_status check_probe_of_grains(const cdem_case *cases, const cdem_case
     return probe_fail(
         cases, probe, probe_gives(cases, probe, "quantity") ? "quantity" : "",
         "grains have the quantities velocity, center, stress, count, mass, solid, "
-        "coordination, surface_angle, center, stress_ratio, band_angle and band_slenderness; the "
-        "force on a wall is a "
-        "column already, "
-        "wall.NAME.fx",
+        "coordination, surface_angle, center, stress_ratio, band_angle, band_slenderness, "
+        "mean_push, boundary_push, fabric, anisotropy, mechanical_coordination and rattlers; the "
+        "force on a wall is a column already, wall.NAME.fx",
         fault);
-  if ((vector || probe->quantity == CDEM_PROBE_STRESS) && !component)
+  if ((vector || is_tensor(probe)) && !component)
     return probe_needs(cases, probe, "component", fault);
-  if (!vector && probe->quantity != CDEM_PROBE_STRESS && component)
+  if (!vector && !is_tensor(probe) && component)
     return probe_fail(cases, probe, "component",
                       "'component' has no meaning for a quantity that is one number; leave it out",
                       fault);
@@ -231,10 +234,13 @@ static cdem_status check_probe(const cdem_case *cases, const cdem_case_probe *pr
     return cdem_case_fail(cases, cdem_case_named_key(key, "probes", probe->name, ""), CDEM_INPUT,
                           fault, "'%s' is a column of every history; give the probe another name",
                           probe->name);
-  if (probe->quantity == CDEM_PROBE_STRESS && !tensor && probe_gives(cases, probe, "component"))
-    return probe_fail(cases, probe, "component", "a stress has the components xx yy zz yz xz xy",
+  if (is_tensor(probe) && !tensor && probe_gives(cases, probe, "component"))
+    return probe_fail(cases, probe, "component",
+                      probe->quantity == CDEM_PROBE_STRESS
+                          ? "a stress has the components xx yy zz yz xz xy"
+                          : "a fabric has the components xx yy zz yz xz xy",
                       fault);
-  if (probe->quantity != CDEM_PROBE_STRESS && tensor)
+  if (!is_tensor(probe) && tensor)
     return probe_fail(cases, probe, "component",
                       "displacement, velocity and force have the components x y z rotation "
                       "magnitude; xx .. xy are those of 'quantity: stress'",

@@ -120,6 +120,12 @@ static const char *const quantities[] = {"displacement",
                                          "stress_ratio",
                                          "band_angle",
                                          "band_slenderness",
+                                         "mean_push",
+                                         "boundary_push",
+                                         "fabric",
+                                         "anisotropy",
+                                         "mechanical_coordination",
+                                         "rattlers",
                                          NULL};
 static const char *const surfaces[] = {"heap", "cone", "slope", NULL};
 static const char *const components[] = {"x",  "y",  "z",  "rotation", "xx",        "yy",
@@ -139,11 +145,15 @@ static const cdem_case_key probes[] = {
          "mean velocity, center (of mass), solid fraction, stress, coordination number and stress "
          "ratio (2-D: (s1 - s3)/(s1 + s3), the sine of the mobilised friction angle; 3-D: q/p) in "
          "the region, or the angle of the free surface; band_angle and band_slenderness (2-D): how "
-         "the grains whose effective strain is above half of the region's largest lie.",
+         "the grains whose effective strain is above half of the region's largest lie. Contacts: "
+         "mean_push between grains and boundary_push on walls and plates (a membrane is none), "
+         "their fabric (mean of n n) and its anisotropy; mechanical_coordination is that of grains "
+         "with two contacts at least, rattlers the share of the others.",
      .example = "force"},
     {PROBE(component), .kind = CDEM_KEY_CHOICE, .choice = components,
      .otherwise = "required by what has components",
-     .help = "Its component; xx .. xy of stress, the others of vectors.", .example = "y"},
+     .help = "Its component; xx .. xy of stress and fabric, the others of vectors.",
+     .example = "y"},
     {PROBE(surface), .kind = CDEM_KEY_CHOICE, .choice = surfaces,
      .help =
          "How surface_angle looks at the grains: the two flanks of a heap along x, a cone about "

@@ -226,7 +226,8 @@ static const cdem_case_key grains[] = {
          "Pictures of the last state: grains coloured by radius, speed, displacement, rotation, "
          "pressure, effective_stress, volumetric_strain, effective_strain (since the start) or "
          "contacts; force "
-         "chains; velocities as arrows.",
+         "chains; velocities as arrows; pushes: the distribution of the normal forces between "
+         "grains over their mean.",
      .example = "[effective_strain, chains]"},
     {GRAINS(picture_window), .kind = CDEM_KEY_SECTION, .section = &section_window,
      .otherwise = "everything", .help = "Pictures that show a part.",

@@ -86,11 +86,11 @@ static cdem_status check(const cdem_packing_options *o, const cdem_compaction *c
   CDEM_REQUIRE(grains->dim == o->dim, fault, CDEM_INPUT,
                "the grains are of dimension %d, their box of %d", grains->dim, o->dim);
   CDEM_TRY(check_target(o, c, fault));
-  const double number[10] = {c->fraction, c->pressure, c->stiffness, c->friction, c->restitution,
-                             c->inertial, c->density,  c->tolerance, c->height,   c->thickness};
+  const double number[10] = {c->fraction, c->pressure, c->stiffness, c->friction,  c->restitution,
+                             c->inertial, c->density,  c->tolerance, c->thickness, c->height};
   const char *const name[10] = {"fraction",    "pressure",        "stiffness", "friction",
                                 "restitution", "inertial number", "density",   "tolerance",
-                                "height",      "thickness"};
+                                "thickness",   "height"};
   for (int i = 0; i < 10; i++)
     CDEM_REQUIRE(number[i] >= 0.0 && isfinite(number[i]), fault, CDEM_INPUT,
                  "compaction: the %s is %g; it must not be negative", name[i], number[i]);
@@ -103,6 +103,12 @@ static cdem_status check(const cdem_packing_options *o, const cdem_compaction *c
                "compaction: the grains fill %.4f of their box before it begins, more than the %.4f "
                "wanted",
                start, c->fraction);
+  double height = o->high[2] - o->low[2];
+  double end = c->height > 0.0 ? start * (height / c->height) : 0.0;
+  CDEM_REQUIRE(end < 1.0, fault, CDEM_INPUT,
+               "compaction: the grains would fill %.4f of the cylinder at a height of %g m; take "
+               "fewer, smaller ones or a higher one",
+               end, c->height);
   return CDEM_OK;
 }
 

@@ -176,8 +176,12 @@ static void label_body(const cdem_picture *picture, int choice, cdem_map *map) {
 
 static cdem_status draw(const cdem_run_coupled *c, int choice, const char *title,
                         const char *folder, const char *tag, cdem_fault *fault) {
-  cdem_picture picture = cdem_run_picture(c->run, choice, c->strain, title);
   char name[96];
+  if (choice == CDEM_RUN_PUSHES)
+    return c->has_grains ? cdem_run_pushes(&c->grains->dem, title, folder,
+                                           cdem_run_picture_file(name, choice, tag), fault)
+                         : CDEM_OK;
+  cdem_picture picture = cdem_run_picture(c->run, choice, c->strain, title);
   cdem_map map = {0};
   if (choice == CDEM_GRAIN_PRESSURE || choice == CDEM_GRAIN_EFFECTIVE_STRESS)
     picture.kind = CDEM_PICTURE_BAND; /* a field beside that of the elements: no gaps */

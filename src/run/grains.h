@@ -95,12 +95,22 @@ cdem_status cdem_run_grains_probe(cdem_run_grains *g, const cdem_case_probe *pro
 cdem_status cdem_run_grains_pictures_init(cdem_run_grains *g, cdem_fault *fault);
 cdem_status cdem_run_grains_pictures(cdem_run_setup *run, const char *folder, const char *tag,
                                      cdem_fault *fault);
-/* ... names in grains.pictures: fields of grains and two more; -1: no such */
-enum { CDEM_RUN_CHAINS = CDEM_GRAIN_FIELDS, CDEM_RUN_VELOCITIES, CDEM_RUN_CHOICES };
+/* ... names in grains.pictures: fields of grains and two more, which are maps; and a curve, the
+ * distribution of the pushes; -1: no such */
+enum {
+  CDEM_RUN_CHAINS = CDEM_GRAIN_FIELDS,
+  CDEM_RUN_VELOCITIES,
+  CDEM_RUN_MAPS,
+  CDEM_RUN_PUSHES = CDEM_RUN_MAPS,
+  CDEM_RUN_CHOICES
+};
 int cdem_run_picture_find(const char *name);
 /* ... what the case says of a picture: kind, window, ends of the colour bar */
 cdem_picture cdem_run_picture(const cdem_run_setup *run, int choice,
                               const cdem_strain_reference *strain, const char *title);
+/* grains_pushes.c: the distribution of the pushes over their mean, as figure and data */
+cdem_status cdem_run_pushes(const cdem_dem *dem, const char *title, const char *folder,
+                            const char *name, cdem_fault *fault);
 /* ... name of its file; of displacement it is "pattern", as for bodies */
 const char *cdem_run_picture_file(char text[96], int choice, const char *tag);
 

@@ -12,6 +12,7 @@ static const char *const usual[] = {"displacement", "chains", "velocities"};
 static const char *choice_name(int choice) {
   return choice == CDEM_RUN_CHAINS       ? "chains"
          : choice == CDEM_RUN_VELOCITIES ? "velocities"
+         : choice == CDEM_RUN_PUSHES     ? "pushes"
                                          : cdem_grain_field_name(choice);
 }
 
@@ -33,8 +34,8 @@ static bool is_windowed(const cdem_case_picture_window *window, int choice) {
   return window->of.count == 0;
 }
 
-_Static_assert(sizeof(cdem_case_picture_ranges) == 2 * CDEM_RUN_CHOICES * sizeof(double),
-               "one range a picture, in their order");
+_Static_assert(sizeof(cdem_case_picture_ranges) == 2 * CDEM_RUN_MAPS * sizeof(double),
+               "one range a map, in their order");
 
 /* Of spheres, chains and velocities are cut through their middle. */
 cdem_picture cdem_run_picture(const cdem_run_setup *run, int choice,
@@ -108,8 +109,10 @@ cdem_status cdem_run_grains_pictures_init(cdem_run_grains *g, cdem_fault *fault)
 
 static cdem_status draw(const cdem_run_grains *g, int choice, const char *title, const char *folder,
                         const char *tag, cdem_fault *fault) {
-  const cdem_picture picture = cdem_run_picture(g->run, choice, g->strain, title);
   char name[96];
+  if (choice == CDEM_RUN_PUSHES)
+    return cdem_run_pushes(&g->dem, title, folder, cdem_run_picture_file(name, choice, tag), fault);
+  const cdem_picture picture = cdem_run_picture(g->run, choice, g->strain, title);
   cdem_map map = {0};
   cdem_status status = cdem_dem_picture(&g->dem, &picture, &map, fault);
   if (status == CDEM_OK)

@@ -1,8 +1,10 @@
 /* Probes of grains: what is in a region, the angle of the free surface, bands of strain. */
+#include "dem/pushes.h"
 #include "dem/surface.h"
 #include "run/grains.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { XX = 4, MAGNITUDE = 10 }; /* of `component`: x y z rotation xx yy zz yz xz xy magnitude */
@@ -17,6 +19,9 @@ const char *cdem_run_grains_unit(const cdem_case_probe *probe) {
     return "Pa";
   case CDEM_PROBE_MASS:
     return "kg";
+  case CDEM_PROBE_MEAN_PUSH:
+  case CDEM_PROBE_BOUNDARY_PUSH:
+    return "N";
   case CDEM_PROBE_SURFACE_ANGLE:
   case CDEM_PROBE_BAND_ANGLE:
     return "rad";
@@ -37,6 +42,7 @@ static cdem_region region_of(const cdem_case_probe *probe) {
   return region;
 }
 
+/* Also of a fabric. */
 static double stress_of(const double s[9], int component) {
   static const int at[] = {0, 4, 8, 5, 2, 1}; /* xx yy zz yz xz xy, row-major */
   return s[at[component - XX]];
@@ -109,6 +115,54 @@ static cdem_status band(cdem_run_grains *g, const cdem_case_probe *probe, double
   return CDEM_OK;
 }
 
+static bool holds(const cdem_region *region, const double point[3]) {
+  for (int c = 0; c < 3; c++)
+    if (region->low[c] < region->high[c] &&
+        !(point[c] >= region->low[c] && point[c] < region->high[c]))
+      return false;
+  return true;
+}
+
+/* NaN without contacts. */
+static cdem_status mean_push(const cdem_run_grains *g, const cdem_case_probe *probe, double *value,
+                             cdem_fault *fault) {
+  const cdem_region region = region_of(probe);
+  cdem_push_statistics found;
+  cdem_push *push;
+  int64_t all, inside = 0;
+  int kind = probe->quantity == CDEM_PROBE_MEAN_PUSH ? CDEM_PUSH_GRAINS : CDEM_PUSH_BOUNDARY;
+  CDEM_TRY(cdem_dem_pushes(&g->dem, &all, &push, fault));
+  for (int64_t k = 0; k < all; k++)
+    if (holds(&region, push[k].point))
+      push[inside++] = push[k];
+  cdem_status status = cdem_push_measure(g->dim, g->dem.grains, inside, push, 0.0, &found, fault);
+  free(push);
+  if (status == CDEM_OK)
+    *value = found.contacts[kind] > 0 ? found.mean[kind] : NAN;
+  return status;
+}
+
+static double of_assembly(const cdem_assembly *assembly, const cdem_case_probe *probe) {
+  switch (probe->quantity) {
+  case CDEM_PROBE_SOLID:
+    return assembly->solid;
+  case CDEM_PROBE_COORDINATION:
+    return assembly->coordination;
+  case CDEM_PROBE_MECHANICAL_COORDINATION:
+    return assembly->mechanical;
+  case CDEM_PROBE_RATTLERS:
+    return assembly->rattlers;
+  case CDEM_PROBE_ANISOTROPY:
+    return assembly->anisotropy;
+  case CDEM_PROBE_FABRIC:
+    return stress_of(assembly->fabric, probe->component);
+  case CDEM_PROBE_STRESS_RATIO:
+    return stress_ratio(assembly);
+  default:
+    return stress_of(assembly->stress, probe->component);
+  }
+}
+
 cdem_status cdem_run_grains_probe(cdem_run_grains *g, const cdem_case_probe *probe, double *value,
                                   cdem_fault *fault) {
   const cdem_region region = region_of(probe);
@@ -120,6 +174,9 @@ cdem_status cdem_run_grains_probe(cdem_run_grains *g, const cdem_case_probe *pro
   case CDEM_PROBE_BAND_ANGLE:
   case CDEM_PROBE_BAND_SLENDERNESS:
     return band(g, probe, value, fault);
+  case CDEM_PROBE_MEAN_PUSH:
+  case CDEM_PROBE_BOUNDARY_PUSH:
+    return mean_push(g, probe, value, fault);
   case CDEM_PROBE_COUNT:
   case CDEM_PROBE_MASS:
   case CDEM_PROBE_VELOCITY:
@@ -129,11 +186,7 @@ cdem_status cdem_run_grains_probe(cdem_run_grains *g, const cdem_case_probe *pro
     return CDEM_OK;
   default:
     CDEM_TRY(cdem_measure(&g->dem, &region, &assembly, fault));
-    *value = probe->quantity == CDEM_PROBE_SOLID          ? assembly.solid
-             : probe->quantity == CDEM_PROBE_COORDINATION ? assembly.coordination
-             : probe->quantity == CDEM_PROBE_STRESS_RATIO
-                 ? stress_ratio(&assembly)
-                 : stress_of(assembly.stress, probe->component);
+    *value = of_assembly(&assembly, probe);
     return CDEM_OK;
   }
 }

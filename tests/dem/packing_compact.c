@@ -193,6 +193,8 @@ static void refusals(void **state) {
       "cylinder (0 m)");
   refuse(&(cdem_compaction){.height = 0.1}, CDEM_INPUT, "to a height is for a cylinder");
   refuse_cylinder(&(cdem_compaction){.pressure = 1.0}, "needs its height or a solid fraction");
+  refuse_cylinder(&(cdem_compaction){.height = 0.05},
+                  "would fill 1.6000 of the cylinder at a height");
   refuse_cylinder(&(cdem_compaction){.height = 1.0}, "not more than the 1 m wanted");
   refuse_cylinder(&(cdem_compaction){.height = 0.1, .periodic = {false, false, true}},
                   "cannot be periodic along its axis");

@@ -48,6 +48,46 @@ static void a_table_with_bonds_turns(void **state) {
   cdem_run_summary_release(&s);
 }
 
+/* Two spheres overlap by 0.1 mm along x, and both a floor: 100 N each between grains and 200 N on
+ * the stiffer floor; a third one is alone. */
+static void probes_of_contacts(void **state) {
+  (void)state;
+  write_case("pushes.csv", "x [mm],y [mm],z [mm],radius [mm],material\n"
+                           "-9.95,0,9.9,10,glass\n9.95,0,9.9,10,glass\n0,50,50,10,glass\n");
+  write_case(
+      "pushes.yaml",
+      "end: 1e-8 s\n"
+      "grains: {dimension: 3, file: pushes.csv, materials: {glass: {density: 2500}, s: {}}}\n"
+      "contacts:\n"
+      "  - {between: [glass, s], normal_stiffness: 2e6, restitution: 1}\n"
+      "  - {normal_stiffness: 1e6, restitution: 1}\n"
+      "walls: {floor: {shape: plane, material: s, center: [0, 0, 0], normal: [0, 0, 1]}}\n"
+      "probes:\n"
+      "  between: {quantity: mean_push}\n"
+      "  nobody: {quantity: mean_push, region: {low: [0.1, 0, 0], high: [1, 1, 1]}}\n"
+      "  boundary: {quantity: boundary_push}\n"
+      "  fabric: {quantity: fabric, component: xx}\n"
+      "  anisotropy: {quantity: anisotropy}\n"
+      "  mechanical: {quantity: mechanical_coordination}\n"
+      "  rattlers: {quantity: rattlers}\n"
+      "results:\n"
+      "  between: {of: between, take: max}\n"
+      "  boundary: {of: boundary, take: max}\n"
+      "  fabric: {of: fabric, take: max}\n"
+      "  anisotropy: {of: anisotropy, take: max}\n"
+      "  mechanical: {of: mechanical, take: max}\n"
+      "  rattlers: {of: rattlers, take: max}\n");
+  cdem_run_summary s = run_ok("pushes.yaml", "pushes", 0, NULL);
+  check_near(key_value(&s, "between"), 100.0, 1e-9, 0.0);
+  check_near(key_value(&s, "boundary"), 200.0, 1e-9, 0.0);
+  check_near(key_value(&s, "fabric"), 1.0, 1e-12, 0.0);
+  /* deviator (2/3, -1/3, -1/3): 7.5 sqrt(3/2 * 2/3) */
+  check_near(key_value(&s, "anisotropy"), 7.5, 1e-12, 0.0);
+  check_near(key_value(&s, "mechanical"), 2.0, 1e-12, 0.0);
+  check_near(key_value(&s, "rattlers"), 1.0 / 3.0, 1e-12, 0.0);
+  cdem_run_summary_release(&s);
+}
+
 /* A periodic lattice that is pressed along y at a given rate: its cell follows, its stress is that
  * of the springs: hexagonal rows with overlap e d/2 at vertical strain e. */
 static void a_cell_is_pressed(void **state) {
@@ -140,7 +180,7 @@ static void failures_name_their_place(void **state) {
 static void states_on_the_way_are_drawn(void **state) {
   (void)state;
   const char *const override[] = {"grains.picture_times=[2 ms, 10.1 ms]", "end=12 ms",
-                                  "grains.pictures=[effective_strain]",
+                                  "grains.pictures=[effective_strain, pushes]",
                                   "probes.band.quantity=band_slenderness"};
   cdem_fault fault = {0};
   cdem_run_summary summary;
@@ -158,6 +198,7 @@ static void states_on_the_way_are_drawn(void **state) {
     cdem_run_summary_release(&summary);
   }
   assert_true(is_there("drawn/figures/effective_strain.png"));
+  assert_true(is_there("drawn/figures/pushes.png") && is_there("drawn/figures/pushes-2ms.dat"));
   assert_true(is_there("drawn/figures/effective_strain-2ms.png"));
   assert_true(is_there("drawn/figures/effective_strain-10.1ms.png"));
   assert_true(holds("drawn/figures/effective_strain-2ms.gp", "'t = 2"));
@@ -184,6 +225,7 @@ static void nothing_to_balance(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_table_with_bonds_turns),
+      cmocka_unit_test(probes_of_contacts),
       cmocka_unit_test(a_cell_is_pressed),
       cmocka_unit_test(the_kept_case_runs_from_anywhere),
       cmocka_unit_test(failures_name_their_place),
