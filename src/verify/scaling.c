@@ -41,6 +41,10 @@ static const cdem_verification checks[] = {
     BITS("static Cosserat body", CDEM_SCALING_STATIC),
     BITS("bonded spheres, relaxed", CDEM_SCALING_BONDED),
     BITS("grains in a Cosserat medium", CDEM_SCALING_FOOTING),
+    BITS("deformable grains, implicit", CDEM_SCALING_FDEM),
+    BITS("deformable grains, explicit", CDEM_SCALING_EXPLICIT),
+    BITS("triaxial test of spheres in a membrane", CDEM_SCALING_TRIAXIAL),
+    BITS("triaxial test of deformable grains", CDEM_SCALING_DEFORMED),
     /* No power of two: rounding, which grows by collisions and cracks; so without them, or short.
      */
     {"elastic body, h = 3: difference", THEORY "section 4", 0, 1e-9, MEASURE(rounding),
