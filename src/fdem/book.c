@@ -1,51 +1,77 @@
 /* The energy book: what stands where at t_n, and what was done since the start.
  *
- * Kinetic energy is m v- v+/2 of the half steps around t_n, v+ by the forces of t_n (as in the room
- * dem). Of implicit modes it is g v- (v- + dt Q/g)/2: the scheme's own energy with the half of the
- * trapezoid that is still to come (motion.c).
+ * Kinetic energy is m v- v+/2 of the half steps around t_n, v+ by the forces and the damping of t_n
+ * (as in the room dem). With the mean velocity u and the acceleration a of t_n that is
+ * m (u^2 - (dt a/2)^2)/2: below nought where the velocity turns within a step, as at the start of
+ * grains that overlap at rest. Of implicit modes it is the scheme's own g v-^2/2.
+ *
+ * Damping and the scheme's loss are summed by kicks (motion.c); of the kick at t_n, which is still
+ * to come, half belongs to the time before t_n: m v- (v- + dt a - v+)/2 of damping, and dt Q v-/2
+ * of implicit modes, the half of the trapezoid's work that the energy g v-^2/2 has not had yet.
  */
 #include "fdem/confine.h"
 
 typedef struct {
-  double translation, rotation, vibration, elastic;
-} kinetic;
+  double translation, rotation, vibration, elastic, damping, numerical;
+} sums;
 
-static void rigid(const cdem_fdem_store *s, int64_t g, double step, kinetic *sum) {
+/* v+ of v- and dt a, damped by the fraction 2 half of critical in a step. */
+static double damped(double v, double push, double half) {
+  return ((1.0 - half) * v + push) / (1.0 + half);
+}
+
+static void rigid(const cdem_fdem_store *s, int64_t g, double step, sums *sum) {
   const double *v = s->velocity + 3 * g, *l = s->momentum + 3 * g, *center = s->center + 3 * g;
-  double next[3] = {l[0], l[1], l[2]}, spin[3], force[3] = {0.0, 0.0, 0.0};
+  double force[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0}, next[3], lost[3], spin[3];
+  double half = 0.5 * step * s->options.mass_damping;
   for (int64_t i = s->first[g]; i < s->first[g + 1]; i++) {
     const double *x = s->now + 3 * i, *f = s->force + 3 * i;
     double arm[3] = {x[0] - center[0], x[1] - center[1], x[2] - center[2]}, part[3];
     cdem_cross3(arm, f, part);
     for (int c = 0; c < 3; c++) {
-      next[c] += step * part[c];
+      moment[c] += part[c];
       force[c] += f[c];
     }
   }
-  for (int c = 0; c < 3; c++)
-    sum->translation +=
-        0.5 * s->mass[g] * v[c] * (v[c] + step * (force[c] / s->mass[g] + s->options.gravity[c]));
+  for (int c = 0; c < 3; c++) {
+    double push = step * (force[c] / s->mass[g] + s->options.gravity[c]);
+    double then = damped(v[c], push, half);
+    sum->translation += 0.5 * s->mass[g] * v[c] * then;
+    sum->damping += 0.5 * s->mass[g] * v[c] * (v[c] + push - then);
+    next[c] = damped(l[c], step * moment[c], half);
+    lost[c] = l[c] + step * moment[c] - next[c];
+  }
   cdem_fdem_spin_of(s, g, s->turn + 9 * g, next, spin);
   sum->rotation += 0.5 * cdem_dot3(l, spin);
+  cdem_fdem_spin_of(s, g, s->turn + 9 * g, lost, spin);
+  sum->damping += 0.5 * cdem_dot3(l, spin);
 }
 
-static void modes(const cdem_fdem_store *s, int64_t g, const double *load, double step,
-                  kinetic *sum) {
+static void modes(const cdem_fdem_store *s, int64_t g, const double *load, double step, sums *sum) {
   const cdem_template *t = cdem_fdem_template(s, g);
   const double *q = s->q + s->mode[g], *v = s->rate + s->mode[g];
   double density = s->options.density[s->material[g]], r = s->radius[g];
   double mass = density * r * r * r;
   bool implicit = s->options.integration == CDEM_FDEM_IMPLICIT;
   for (int k = 0; k < t->modes; k++) {
-    double stiff = r * t->lambda[k], pull = load[k] - (implicit ? 0.0 : stiff * q[k]);
-    sum->vibration += 0.5 * v[k] * (mass * v[k] + step * pull);
+    double stiff = r * t->lambda[k];
     sum->elastic += 0.5 * stiff * q[k] * q[k];
+    if (implicit) {
+      sum->vibration += 0.5 * mass * v[k] * v[k];
+      sum->numerical += 0.5 * step * load[k] * v[k];
+      continue;
+    }
+    double push = step * (load[k] - stiff * q[k]) / mass;
+    double rate = s->options.mass_damping + 2.0 * s->options.damping_ratio * sqrt(stiff / mass);
+    double next = damped(v[k], push, 0.5 * step * rate);
+    sum->vibration += 0.5 * mass * v[k] * next;
+    sum->damping += 0.5 * mass * v[k] * (v[k] + push - next);
   }
 }
 
 static void sum_up(const cdem_fdem *fdem, cdem_fdem_energies *e) {
   const cdem_fdem_store *s = fdem->store;
-  kinetic sum = {0};
+  sums sum = {0};
   for (int32_t b = 0; b < s->blocks; b++) {
     const cdem_fdem_block *block = s->block + b;
     int count = s->options.shape[block->shape].modes;
@@ -60,6 +86,8 @@ static void sum_up(const cdem_fdem *fdem, cdem_fdem_energies *e) {
   e->rotation = sum.rotation;
   e->vibration = sum.vibration;
   e->elastic = sum.elastic;
+  e->damping += sum.damping;
+  e->numerical += sum.numerical;
 }
 
 void cdem_fdem_energies_now(const cdem_fdem *fdem, cdem_fdem_energies *e) {

@@ -55,6 +55,10 @@ static const cdem_verification checks[] = {
     {"steps of the coarse lattice over those of the fine one", THEORY "eq. (7)", 1, 0.01,
      MEASURE(window), .parameter = 4},
     {"the same at the same rate", THEORY "eq. (7)", 0.5, 0.005, MEASURE(window), .parameter = 5},
+    BITS("deformable grains, implicit", CDEM_SCALING_FDEM),
+    BITS("deformable grains, explicit", CDEM_SCALING_EXPLICIT),
+    BITS("triaxial test of spheres in a membrane", CDEM_SCALING_TRIAXIAL),
+    BITS("triaxial test of deformable grains", CDEM_SCALING_DEFORMED),
     /* No power of two: rounding, which grows by collisions and cracks; so without them, or short.
      */
     {"elastic body, h = 3: difference", THEORY "section 4", 0, 1e-9, MEASURE(rounding),

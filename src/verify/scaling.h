@@ -56,6 +56,10 @@ typedef enum {
   CDEM_SCALING_STATIC,   /* Cosserat, static */
   CDEM_SCALING_BONDED,   /* bonded spheres, relaxed */
   CDEM_SCALING_FOOTING,  /* grains in a Cosserat medium */
+  CDEM_SCALING_FDEM,     /* deformable grains in a tube, implicit */
+  CDEM_SCALING_EXPLICIT, /* the same with every vibration resolved, damped */
+  CDEM_SCALING_TRIAXIAL, /* spheres, law penalty, in a membrane */
+  CDEM_SCALING_DEFORMED, /* deformable grains in a membrane */
   CDEM_SCALING_CASES
 } cdem_scaling_case;
 extern const char *const cdem_scaling_text[CDEM_SCALING_CASES];

@@ -1,6 +1,42 @@
 /* Small cases in which as much happens as fits into a second. */
 #include "verify/scaling.h"
 
+/* Deformable grains thrown at each other and at the walls of a tube. */
+#define TUBE(end, deformable)                                                                      \
+  "end: " end "\n"                                                                                 \
+  "history_every: 50 us\n"                                                                         \
+  "gravity: [0, 0, -9.81 m/s2]\n"                                                                  \
+  "mass_damping: 20 1/s\n"                                                                         \
+  "grains:\n"                                                                                      \
+  "  dimension: 3\n"                                                                               \
+  "  law: penalty\n"                                                                               \
+  "  deformable: " deformable "\n"                                                                 \
+  "  packing: {kind: loose, cylinder: yes, low: [-0.1, -0.1, 0], high: [0.1, 0.1, 0.15], sizes: "  \
+  "uniform, least: 18 mm, most: 22 mm, count: 24}\n"                                               \
+  "  materials: {rock: {density: 2650 kg/m3, young: 40 GPa, poisson: 0.2}}\n"                      \
+  "contacts: [{penalty_stiffness: 1e11 N/m3, shear_ratio: 0.8, friction: 0.3, damping_ratio: "     \
+  "0.2}]\n"                                                                                        \
+  "walls:\n"                                                                                       \
+  "  floor: {shape: plane, normal: [0, 0, 1], center: [0, 0, 0]}\n"                                \
+  "  tube: {shape: cylinder, radius: 100 mm, center: [0, 0, 0], axis: [0, 0, 1]}\n"                \
+  "  lid: {shape: plate, normal: [0, 0, -1], center: [0, 0, 0.15], half_size: [0.2, 0.2], "        \
+  "velocity: {z: -20 m/s}}\n"                                                                      \
+  "initial: [{velocity: [5 m/s, -3 m/s, -10 m/s], spin: [0, 30, 10]}]\n"
+
+/* A short and fast triaxial test of a few large grains. */
+#define TRIAXIAL(deformable)                                                                       \
+  "history_every: 0.5 ms\n"                                                                        \
+  "grains:\n"                                                                                      \
+  "  dimension: 3\n"                                                                               \
+  "  law: penalty\n"                                                                               \
+  "  packing: {kind: loose, cylinder: yes, low: [-0.1, -0.1, 0], high: [0.1, 0.1, 0.3], radius: "  \
+  "30 mm, count: 50, compact: {height: 300 mm}}\n"                                                 \
+  "  materials: {rock: {density: 2650 kg/m3, young: 40 GPa, poisson: 0.2}}\n"                      \
+  "  most_overlap: 0.4\n" deformable                                                               \
+  "contacts: [{penalty_stiffness: 1e10 N/m3, shear_ratio: 1, friction: 0.3, damping_ratio: "       \
+  "0.2}]\n"                                                                                        \
+  "triaxial: {pressure: 0.9 MPa, strain: 0.01, consolidation: 8 ms, rate: 4 1/s}\n"
+
 const char *const cdem_scaling_text[CDEM_SCALING_CASES] = {
     [CDEM_SCALING_BODY] =
         "end: 0.3 ms\n"
@@ -172,4 +208,9 @@ const char *const cdem_scaling_text[CDEM_SCALING_CASES] = {
         "coupling: {regions: [{low: [-1 m, -1 m], high: [1 m, 0.1 m]}], rotation: scaled, cycles: "
         "10, absorb: 1000 1/s}\n"
         "results: {load: {of: load.plate.fy, take: last, reference: 1e6}}\n",
+    [CDEM_SCALING_FDEM] = TUBE("2 ms", "{shape: cubesphere, refinement: 2}"),
+    [CDEM_SCALING_EXPLICIT] =
+        TUBE("1 ms", "{shape: cubesphere, integration: explicit, damping_ratio: 0.02}"),
+    [CDEM_SCALING_TRIAXIAL] = TRIAXIAL(""),
+    [CDEM_SCALING_DEFORMED] = TRIAXIAL("  deformable: {shape: cubesphere, refinement: 2}\n"),
 };

@@ -31,12 +31,18 @@ BITS(discs, CDEM_SCALING_DISCS)
 BITS(at_rest, CDEM_SCALING_STATIC)
 BITS(bonded, CDEM_SCALING_BONDED)
 BITS(footing, CDEM_SCALING_FOOTING)
+BITS(fdem, CDEM_SCALING_FDEM)
+BITS(vibrating, CDEM_SCALING_EXPLICIT)
+BITS(triaxial, CDEM_SCALING_TRIAXIAL)
+BITS(deformed, CDEM_SCALING_DEFORMED)
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(body),    cmocka_unit_test(fracture), cmocka_unit_test(solid),
-      cmocka_unit_test(spheres), cmocka_unit_test(hertz),    cmocka_unit_test(discs),
-      cmocka_unit_test(at_rest), cmocka_unit_test(bonded),   cmocka_unit_test(footing),
+      cmocka_unit_test(body),     cmocka_unit_test(fracture),  cmocka_unit_test(solid),
+      cmocka_unit_test(spheres),  cmocka_unit_test(hertz),     cmocka_unit_test(discs),
+      cmocka_unit_test(at_rest),  cmocka_unit_test(bonded),    cmocka_unit_test(footing),
+      cmocka_unit_test(fdem),     cmocka_unit_test(vibrating), cmocka_unit_test(triaxial),
+      cmocka_unit_test(deformed),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
