@@ -252,6 +252,8 @@ static cdem_status check_deformable(const cdem_case *cases, cdem_fault *fault) {
   static const char *const rigid[][2] = {
       {"bonds", "their contacts only push"},
       {"cell", "they do not know periodic cells"},
+      {"probes", "the columns of their history hold pushes, fabric and stress anyway"},
+      {"grains.pictures", "frames show them, and the distribution of pushes is drawn anyway"},
       {"local_damping", "damp them by 'mass_damping' or 'grains.deformable.damping_ratio'"}};
   const cdem_case_grains *g = &cases->values.grains;
   bool mesh = g->deformable.shape == SHAPE_mesh;

@@ -178,8 +178,8 @@ static cdem_status draw(const cdem_run_coupled *c, int choice, const char *title
                         const char *folder, const char *tag, cdem_fault *fault) {
   char name[96];
   if (choice == CDEM_RUN_PUSHES)
-    return c->has_grains ? cdem_run_pushes(&c->grains->dem, title, folder,
-                                           cdem_run_picture_file(name, choice, tag), fault)
+    return c->has_grains ? cdem_run_dem_pushes(&c->grains->dem, title, folder,
+                                               cdem_run_picture_file(name, choice, tag), fault)
                          : CDEM_OK;
   cdem_picture picture = cdem_run_picture(c->run, choice, c->strain, title);
   cdem_map map = {0};

@@ -3,6 +3,7 @@
 #ifndef CDEM_RUN_DEFORMABLE_H
 #define CDEM_RUN_DEFORMABLE_H
 
+#include "dem/clusters.h"
 #include "fdem/fdem.h"
 #include "run/grains.h"
 
@@ -43,5 +44,9 @@ cdem_status cdem_run_deformable_membrane(const cdem_run_deformable *d, int64_t i
  * a wall, in the form of rigid ones; free() them. */
 cdem_status cdem_run_deformable_contacts(const cdem_run_deformable *d, int64_t *contacts,
                                          cdem_dem_contact **contact, cdem_fault *fault);
+/* ... and as the source counts them: clusters of nodes by density, paired across two grains
+ * (dem/clusters.h). */
+cdem_status cdem_run_deformable_pushes(const cdem_run_deformable *d,
+                                       cdem_cluster_contacts *contacts, cdem_fault *fault);
 
 #endif

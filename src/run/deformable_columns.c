@@ -7,7 +7,9 @@
 
 /* What a row says of all grains together. */
 typedef struct {
-  double contacts, coordination, sliding, overlap, speed, solid, mean_push, stress[9];
+  double contacts, coordination, sliding, overlap, speed, solid, stress[9];
+  double clusters;
+  cdem_push_statistics pushes;
 } summary;
 
 /* ---- looking ---- */
@@ -34,17 +36,24 @@ static void sum_contacts(const cdem_run_deformable *d, int64_t contacts,
     const cdem_dem_contact *c = &contact[k];
     ends += c->b >= 0 ? 2.0 : 1.0;
     found->sliding += c->sliding;
-    found->mean_push += c->push;
     found->overlap = fmax(found->overlap, c->overlap / d->grains->grains.radius[c->a]);
     for (int i = 0; i < 9; i++)
       found->stress[i] += c->force[i / 3] * c->branch[i % 3] / volume;
   }
   found->contacts = (double)contacts;
   found->coordination = ends / (double)d->fdem.grains;
-  if (contacts > 0) {
+  if (contacts > 0)
     found->sliding /= (double)contacts;
-    found->mean_push /= (double)contacts;
-  }
+}
+
+static cdem_status look_at_pushes(const cdem_run_deformable *d, summary *found, cdem_fault *fault) {
+  cdem_cluster_contacts clusters;
+  CDEM_TRY(cdem_run_deformable_pushes(d, &clusters, fault));
+  found->clusters = (double)clusters.contacts;
+  cdem_status status = cdem_push_measure(3, d->fdem.grains, clusters.contacts, clusters.contact,
+                                         0.0, &found->pushes, fault);
+  cdem_cluster_contacts_release(&clusters);
+  return status;
 }
 
 static cdem_status look(cdem_run_deformable *d, summary *found, cdem_fault *fault) {
@@ -63,7 +72,7 @@ static cdem_status look(cdem_run_deformable *d, summary *found, cdem_fault *faul
   }
   free(contact);
   free(center);
-  return status;
+  return status == CDEM_OK ? look_at_pushes(d, found, fault) : status;
 }
 
 /* ---- columns ---- */
@@ -103,7 +112,12 @@ static void put_assembly(cdem_run_row *row, cdem_run_deformable *d) {
   cdem_run_put(row, "", found.overlap, "overlap");
   cdem_run_put(row, "m/s", found.speed, "speed");
   cdem_run_put(row, "", found.solid, "solid");
-  cdem_run_put(row, "N", found.mean_push, "mean_push");
+  cdem_run_put(row, "", found.clusters, "clusters");
+  cdem_run_put(row, "N", found.pushes.mean[CDEM_PUSH_GRAINS], "mean_push");
+  cdem_run_put(row, "N", found.pushes.mean[CDEM_PUSH_BOUNDARY], "boundary_push");
+  cdem_run_put(row, "", found.pushes.anisotropy, "anisotropy");
+  cdem_run_put(row, "", found.pushes.mechanical, "mechanical");
+  cdem_run_put(row, "", found.pushes.rattlers, "rattlers");
   for (int i = 0; i < 6; i++)
     cdem_run_put(row, "Pa", found.stress[order[i]], "stress.%s", component[order[i]]);
 }

@@ -132,11 +132,19 @@ static void put_sizes(cdem_json *json, const cdem_run_summary *summary) {
   cdem_json_integer(json, "elements", summary->elements);
 }
 
-/* Frames show more than a picture could; curves of the case are drawn as for all runs. */
+/* The distribution of forces; frames show grains better than a picture could. */
 static cdem_status pictures(cdem_run_setup *run, const char *folder, const char *tag,
                             cdem_fault *fault) {
-  (void)run, (void)folder, (void)tag, (void)fault;
-  return CDEM_OK;
+  const cdem_run_deformable *d = cdem_run_deformable_of(run);
+  const char *title = cdem_run_deformable_values(d)->title;
+  cdem_cluster_contacts clusters;
+  char name[96];
+  CDEM_TRY(cdem_run_deformable_pushes(d, &clusters, fault));
+  cdem_status status =
+      cdem_run_pushes(clusters.contacts, clusters.contact, title != NULL ? title : "", folder,
+                      cdem_run_picture_file(name, CDEM_RUN_PUSHES, tag), fault);
+  cdem_cluster_contacts_release(&clusters);
+  return status;
 }
 
 const cdem_run_engine cdem_run_engine_deformable = {

@@ -5,6 +5,7 @@
 
 #include "dem/dem.h"
 #include "dem/pictures.h"
+#include "dem/pushes.h"
 #include "run/setup.h"
 #include "run/triaxial.h"
 
@@ -109,8 +110,10 @@ int cdem_run_picture_find(const char *name);
 cdem_picture cdem_run_picture(const cdem_run_setup *run, int choice,
                               const cdem_strain_reference *strain, const char *title);
 /* grains_pushes.c: the distribution of the pushes over their mean, as figure and data */
-cdem_status cdem_run_pushes(const cdem_dem *dem, const char *title, const char *folder,
-                            const char *name, cdem_fault *fault);
+cdem_status cdem_run_pushes(int64_t contacts, const cdem_push *push, const char *title,
+                            const char *folder, const char *name, cdem_fault *fault);
+cdem_status cdem_run_dem_pushes(const cdem_dem *dem, const char *title, const char *folder,
+                                const char *name, cdem_fault *fault);
 /* ... name of its file; of displacement it is "pattern", as for bodies */
 const char *cdem_run_picture_file(char text[96], int choice, const char *tag);
 

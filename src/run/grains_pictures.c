@@ -111,7 +111,8 @@ static cdem_status draw(const cdem_run_grains *g, int choice, const char *title,
                         const char *tag, cdem_fault *fault) {
   char name[96];
   if (choice == CDEM_RUN_PUSHES)
-    return cdem_run_pushes(&g->dem, title, folder, cdem_run_picture_file(name, choice, tag), fault);
+    return cdem_run_dem_pushes(&g->dem, title, folder, cdem_run_picture_file(name, choice, tag),
+                               fault);
   const cdem_picture picture = cdem_run_picture(g->run, choice, g->strain, title);
   cdem_map map = {0};
   cdem_status status = cdem_dem_picture(&g->dem, &picture, &map, fault);

@@ -30,16 +30,22 @@ static cdem_status draw(const cdem_table *table, const char *title, const char *
   return cdem_write_figure(folder, name, &figure, fault);
 }
 
-cdem_status cdem_run_pushes(const cdem_dem *dem, const char *title, const char *folder,
-                            const char *name, cdem_fault *fault) {
-  cdem_push *push;
-  int64_t contacts;
+cdem_status cdem_run_pushes(int64_t contacts, const cdem_push *push, const char *title,
+                            const char *folder, const char *name, cdem_fault *fault) {
   cdem_table table = {0};
-  CDEM_TRY(cdem_dem_pushes(dem, &contacts, &push, fault));
   cdem_status status = cdem_push_distribution(contacts, push, BINS, LOW, HIGH, &table, fault);
-  free(push);
   if (status == CDEM_OK)
     status = draw(&table, title, folder, name, fault);
   cdem_table_release(&table);
+  return status;
+}
+
+cdem_status cdem_run_dem_pushes(const cdem_dem *dem, const char *title, const char *folder,
+                                const char *name, cdem_fault *fault) {
+  cdem_push *push;
+  int64_t contacts;
+  CDEM_TRY(cdem_dem_pushes(dem, &contacts, &push, fault));
+  cdem_status status = cdem_run_pushes(contacts, push, title, folder, name, fault);
+  free(push);
   return status;
 }
