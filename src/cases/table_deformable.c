@@ -14,7 +14,7 @@ static const cdem_case_key deformable[] = {
      .help = "Mesh of all grains: icosphere, tetrasphere or cubesphere, spheres of ten-node "
              "tetrahedra, four-node tetrahedra or hexahedra; or mesh, a file.",
      .example = "cubesphere"},
-    {DEFORMABLE(refinement), .kind = CDEM_KEY_INTEGER, .fallback = 1, BETWEEN(0, 8),
+    {DEFORMABLE(refinement), .kind = CDEM_KEY_INTEGER, .fallback = 1, BETWEEN(0, 6),
      .help = "icosphere, tetrasphere: how often the 20 faces of an icosahedron are cut in four; "
              "cubesphere: hexahedra along an edge of its core.",
      .example = "2"},

@@ -152,6 +152,6 @@ const cdem_grain_shape cdem_grain_shape_cubesphere = {
     .help = "sphere of hexahedra, a core of n x n x n (n: `refinement`) in six blocks (2: 32 "
             "elements, 53 nodes)",
     .least = 1,
-    .most = 8,
+    .most = 6,
     .ball = true,
     .make = make};

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Degrees of freedom of which all modes are found in a minute. */
-enum { MOST_NODES = 3000 };
+/* All modes of so many are found in half a minute. */
+enum { MOST_NODES = 1500 };
 
 cdem_status cdem_template_rules_init(const cdem_mesh *mesh, cdem_template_rules *rules,
                                      cdem_fault *fault) {
