@@ -315,7 +315,21 @@ cdem_status cdem_fdem_confine_save(const cdem_fdem_store *s, cdem_state *state, 
   return cdem_membrane_save(&b->membrane, state, fault);
 }
 
-/* Which touches there are does not depend on when the rows were made. */
+/* Rows with twice the skin, then those go on from where they were made: they are made anew in the
+ * same step as without the break, so that states are the same, too. */
+static cdem_status find_again(cdem_fdem *fdem, const cdem_state *state, cdem_fault *fault) {
+  struct cdem_fdem_confine *b = fdem->store->confine;
+  double moved = b->moved, skin = b->skin;
+  b->skin = 2.0 * skin;
+  cdem_status status = cdem_fdem_confine_lists(fdem, true, fault);
+  b->skin = skin;
+  CDEM_TRY(status);
+  b->moved = moved;
+  CDEM_TRY(cdem_state_get(state, "fdem/confine_built", CDEM_ARRAY_REAL, 3 * fdem->store->grains,
+                          b->built, fault));
+  return cdem_membrane_restore(&b->membrane, state, fault); /* the lists have marked it anew */
+}
+
 cdem_status cdem_fdem_confine_restore(cdem_fdem *fdem, const cdem_state *state, cdem_fault *fault) {
   cdem_fdem_store *s = fdem->store;
   struct cdem_fdem_confine *b = s->confine;
@@ -326,7 +340,7 @@ cdem_status cdem_fdem_confine_restore(cdem_fdem *fdem, const cdem_state *state, 
   if (real[REALS - 1] != 0.0)
     cdem_fdem_shear(fdem, b->speed);
   calm(fdem);
-  CDEM_TRY(cdem_fdem_confine_lists(fdem, true, fault));
+  CDEM_TRY(find_again(fdem, state, fault));
   double damped = b->damped;
   for (int32_t ring = 0; ring < b->membrane.rings; ring++)
     touch_ring(s, b, ring, fdem->step);

@@ -37,6 +37,12 @@ static cdem_status elastic(const cdem_run_deformable *d, int m, cdem_material *m
   return CDEM_OK;
 }
 
+static const char *shape_key(const cdem_run_deformable *d, const char *message) {
+  static const char key[] = "grains.deformable.refinement";
+  bool own = strstr(message, "refinement") != NULL && cdem_case_given(&d->run->cases, key);
+  return own ? key : "grains.deformable";
+}
+
 /* One template for each material of grains. */
 static cdem_status make_shapes(cdem_run_deformable *d, const cdem_mesh *mesh, cdem_fault *fault) {
   const cdem_case_deformable *wanted = &cdem_run_deformable_values(d)->grains.deformable;
@@ -59,7 +65,7 @@ static cdem_status make_shapes(cdem_run_deformable *d, const cdem_mesh *mesh, cd
     if (status == CDEM_OK) {
       status = cdem_template_init(&options, false, &d->shape[d->shapes], fault);
       if (status == CDEM_INPUT || status == CDEM_NUMERIC)
-        status = cdem_case_blame(&d->run->cases, "grains.deformable", fault);
+        status = cdem_case_blame(&d->run->cases, shape_key(d, fault->message), fault);
     }
     of[m] = d->shapes;
     d->shapes += status == CDEM_OK;
@@ -92,6 +98,12 @@ static cdem_status make_laws(cdem_run_deformable *d, cdem_fault *fault) {
       return cdem_case_fail(&d->run->cases, cdem_run_key(key, "contacts", g->contact_entry[i], ""),
                             CDEM_INPUT, fault,
                             "contacts of deformable grains need 'penalty_stiffness'");
+    if (meet && !isnan(value[CDEM_LAW_restitution]))
+      return cdem_case_fail(&d->run->cases,
+                            cdem_run_key(key, "contacts", g->contact_entry[i], "restitution"),
+                            CDEM_INPUT, fault,
+                            "nodes of deformable grains are damped one by one: give "
+                            "'damping_ratio', not 'restitution'");
     *law = (cdem_fdem_contact_law){.penalty = meet ? value[CDEM_LAW_penalty_stiffness] : 0.0,
                                    .shear_ratio = or_else(value[CDEM_LAW_shear_ratio], 1.0),
                                    .friction = or_else(value[CDEM_LAW_friction], 0.0),
