@@ -36,14 +36,34 @@ static void check_stages(const char *folder, double strain, double side, double 
   cdem_table_release(&table);
 }
 
+/* Of the rows: the peak and where it is; how far the volume has come back from where it was least.
+ */
+static void check_keys(const cdem_run_summary *summary, const char *folder) {
+  double peak = -INFINITY, at = NAN, contraction = 0.0, dilation = 0.0;
+  cdem_table table = read_rows(folder);
+  for (int64_t i = 0; i < table.rows; i++) {
+    double volumetric = row_value(&table, i, "volumetric_strain");
+    double ratio = row_value(&table, i, "stress_ratio");
+    if (isnan(ratio))
+      continue;
+    at = ratio > peak ? row_value(&table, i, "axial_strain") : at;
+    peak = fmax(peak, ratio);
+    contraction = fmax(contraction, volumetric);
+    dilation = fmax(dilation, contraction - volumetric);
+  }
+  check_near(key_value(summary, "peak_stress_ratio"), peak, 1e-12, 0.0);
+  check_near(key_value(summary, "strain_at_peak"), at, 1e-12, 0.0);
+  check_near(key_value(summary, "dilation"), dilation, 1e-9, 1e-15);
+  check_below(at, 0.0502);
+  cdem_table_release(&table);
+}
+
 static void a_membrane_keeps_its_pressure(void **state) {
   (void)state;
   write_triaxial("box.yaml", 1.0, "{pressure: 0.5 MPa, inertial_number: 5e-3, strain: 0.05}");
   cdem_run_summary summary = run_it("box.yaml", "flexible");
   check_stages("flexible", 0.05, 0.01, 5e-3);
-  check_near(key_value(&summary, "peak_stress_ratio"), 0.8, 0.6, 0.0);
-  assert_true(key_value(&summary, "strain_at_peak") <= 0.0502);
-  assert_true(key_value(&summary, "dilation") >= 0.0);
+  check_keys(&summary, "flexible");
   check_below(summary.energy_error, 1e-3);
   assert_true(is_there("flexible/membrane.pvd"));
   cdem_run_summary_release(&summary);
