@@ -8,6 +8,7 @@
  * Damping and the scheme's loss are summed by kicks (motion.c); of the kick at t_n, which is still
  * to come, half belongs to the time before t_n: m v- (v- + dt a - v+)/2 of damping, and dt Q v-/2
  * of implicit modes, the half of the trapezoid's work that the energy g v-^2/2 has not had yet.
+ * After a change of the step dt is the kick's, (dt- + dt+)/2, and in the last of them dt-.
  */
 #include "fdem/confine.h"
 
@@ -20,9 +21,10 @@ static double damped(double v, double push, double half) {
   return ((1.0 - half) * v + push) / (1.0 + half);
 }
 
-static void rigid(const cdem_fdem_store *s, int64_t g, double step, sums *sum) {
+static void rigid(const cdem_fdem_store *s, int64_t g, sums *sum) {
   const double *v = s->velocity + 3 * g, *l = s->momentum + 3 * g, *center = s->center + 3 * g;
   double force[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0}, next[3], lost[3], spin[3];
+  const double step = s->kick;
   double half = 0.5 * step * s->options.mass_damping;
   for (int64_t i = s->first[g]; i < s->first[g + 1]; i++) {
     const double *x = s->now + 3 * i, *f = s->force + 3 * i;
@@ -51,19 +53,19 @@ static void modes(const cdem_fdem_store *s, int64_t g, const double *load, doubl
   const cdem_template *t = cdem_fdem_template(s, g);
   const double *q = s->q + s->mode[g], *v = s->rate + s->mode[g];
   double density = s->options.density[s->material[g]], r = s->radius[g];
-  double mass = density * r * r * r;
+  double mass = density * r * r * r, last = 2.0 * s->kick - step;
   bool implicit = s->options.integration == CDEM_FDEM_IMPLICIT;
   for (int k = 0; k < t->modes; k++) {
     double stiff = r * t->lambda[k];
     sum->elastic += 0.5 * stiff * q[k] * q[k];
     if (implicit) {
       sum->vibration += 0.5 * mass * v[k] * v[k];
-      sum->numerical += 0.5 * step * load[k] * v[k];
+      sum->numerical += 0.5 * last * load[k] * v[k];
       continue;
     }
-    double push = step * (load[k] - stiff * q[k]) / mass;
+    double push = s->kick * (load[k] - stiff * q[k]) / mass;
     double rate = s->options.mass_damping + 2.0 * s->options.damping_ratio * sqrt(stiff / mass);
-    double next = damped(v[k], push, 0.5 * step * rate);
+    double next = damped(v[k], push, 0.5 * s->kick * rate);
     sum->vibration += 0.5 * mass * v[k] * next;
     sum->damping += 0.5 * mass * v[k] * (v[k] + push - next);
   }
@@ -78,7 +80,7 @@ static void sum_up(const cdem_fdem *fdem, cdem_fdem_energies *e) {
     cdem_fdem_loads_of(s, b, s->work);
     for (int m = 0; m < block->count; m++) {
       int64_t g = s->member[block->first + m];
-      rigid(s, g, fdem->step, &sum);
+      rigid(s, g, &sum);
       modes(s, g, s->work->load + (int64_t)m * count, fdem->step, &sum);
     }
   }

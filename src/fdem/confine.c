@@ -30,7 +30,6 @@ static cdem_status allocate(const cdem_fdem_store *s, struct cdem_fdem_confine *
   CDEM_NEW(b->row, (int64_t)b->membrane.nodes + 1, fault);
   CDEM_NEW(b->grain_row, s->grains + 1, fault);
   CDEM_NEW(b->built, 3 * s->grains, fault);
-  CDEM_NEW(b->grain_stiff, s->grains, fault);
   CDEM_NEW(b->lost, b->membrane.rings, fault);
   CDEM_NEW(b->stored, b->membrane.rings, fault);
   CDEM_NEW(b->stiff, b->membrane.rings, fault);
@@ -74,7 +73,6 @@ void cdem_fdem_confine_release(cdem_fdem_store *s) {
   free(b->grain_row);
   free(b->of_grain);
   free(b->built);
-  free(b->grain_stiff);
   free(b->lost);
   free(b->stored);
   free(b->stiff);
@@ -312,6 +310,8 @@ cdem_status cdem_fdem_confine_save(const cdem_fdem_store *s, cdem_state *state, 
   CDEM_TRY(cdem_state_add_copy(state, "fdem/confine", CDEM_ARRAY_REAL, REALS, real, fault));
   CDEM_TRY(
       cdem_state_add(state, "fdem/confine_built", CDEM_ARRAY_REAL, 3 * s->grains, b->built, fault));
+  CDEM_TRY(cdem_state_add(state, "fdem/confine_lost", CDEM_ARRAY_REAL, b->membrane.rings, b->lost,
+                          fault));
   return cdem_membrane_save(&b->membrane, state, fault);
 }
 
@@ -330,6 +330,9 @@ static cdem_status find_again(cdem_fdem *fdem, const cdem_state *state, cdem_fau
   return cdem_membrane_restore(&b->membrane, state, fault); /* the lists have marked it anew */
 }
 
+/* Before the walls are restored: a sheared plate has another function. Which touches there are
+ * follows from the places, but their forces and losses are of the step that led here and of
+ * velocities before that step was perhaps changed: those are kept. */
 cdem_status cdem_fdem_confine_restore(cdem_fdem *fdem, const cdem_state *state, cdem_fault *fault) {
   cdem_fdem_store *s = fdem->store;
   struct cdem_fdem_confine *b = s->confine;
@@ -341,11 +344,10 @@ cdem_status cdem_fdem_confine_restore(cdem_fdem *fdem, const cdem_state *state, 
     cdem_fdem_shear(fdem, b->speed);
   calm(fdem);
   CDEM_TRY(find_again(fdem, state, fault));
-  double damped = b->damped;
   for (int32_t ring = 0; ring < b->membrane.rings; ring++)
     touch_ring(s, b, ring, fdem->step);
-  for (int32_t ring = 0; ring < b->membrane.rings; ring++)
-    cdem_membrane_gather(&b->membrane, ring);
-  b->damped = damped;
-  return CDEM_OK;
+  CDEM_TRY(cdem_membrane_restore(&b->membrane, state, fault));
+  walk(b, real, false);
+  return cdem_state_get(state, "fdem/confine_lost", CDEM_ARRAY_REAL, b->membrane.rings, b->lost,
+                        fault);
 }

@@ -29,10 +29,8 @@ struct cdem_fdem_confine {
   int64_t *of_grain;               /* [row[nodes]] touches of each grain, ascending */
   int64_t capacity[2];
   double *built;                 /* [grains][3] centres when the rows were made */
-  int32_t *by_z;                 /* [grains] in the order of their height then */
   double moved;                  /* of a node since then, m */
   double *lost, *stored, *stiff; /* [rings] W, J; largest stiffness on one node, N/m */
-  double *grain_stiff;           /* [grains] N/m */
   /* what the series of the plate point at */
   double time[1], wanted, speed;
   bool sheared;

@@ -1,7 +1,9 @@
 /* Which grains are near which nodes of the membrane.
  *
- * A node is a candidate of every grain whose furthest node it could touch before it, the grain or
- * the shape has moved by the skin. Grains are looked for in a window of heights. */
+ * A node is a candidate of every grain that it could touch before both have moved by the skin, the
+ * grain deformed by as much as its surface has room for (`margin`); twice the skin, since rows of a
+ * restored specimen are made when a part of that way is done. Grains are looked for in a window of
+ * heights. */
 #include "fdem/confine.h"
 
 #include <stdlib.h>
@@ -25,7 +27,7 @@ static int by_grain(const void *a, const void *b) {
 }
 
 static double reach_of(const cdem_fdem_store *s, int64_t g) {
-  return s->radius[g] * s->surface[g]->reach;
+  return s->radius[g] * (s->surface[g]->reach + s->surface[g]->margin);
 }
 
 /* First level at or above z. */

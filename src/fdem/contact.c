@@ -201,20 +201,19 @@ static void sum_books(const cdem_fdem_contacts *contacts, cdem_contact_book *boo
 }
 
 void cdem_fdem_contacts_gather(const cdem_fdem_contacts *contacts, const cdem_contact_view *view,
-                               double *force, double *wall_force, double *wall_stiff,
-                               double *stiff) {
+                               const cdem_contact_forces *out) {
 #pragma omp parallel for schedule(static) num_threads(contacts->threads)
   for (int64_t g = 0; g < contacts->grains; g++)
-    stiff[g] = gather(contacts, view, g, force + 3 * view->first[g]);
-  sum_walls(contacts, wall_force, wall_stiff);
+    out->stiff[g] = gather(contacts, view, g, out->force + 3 * view->first[g]);
+  sum_walls(contacts, out->wall_force, out->wall_stiff);
 }
 
 cdem_status cdem_fdem_contacts_forces(cdem_fdem_contacts *contacts, const cdem_contact_view *view,
-                                      double *force, double *wall_force, double *wall_stiff,
-                                      double *stiff, cdem_contact_book *book, cdem_fault *fault) {
+                                      const cdem_contact_forces *out, cdem_contact_book *book,
+                                      cdem_fault *fault) {
   CDEM_TRY(cdem_contacts_reach(contacts, view, fault));
   CDEM_TRY(find(contacts, view, fault));
-  cdem_fdem_contacts_gather(contacts, view, force, wall_force, wall_stiff, stiff);
+  cdem_fdem_contacts_gather(contacts, view, out);
   sum_books(contacts, book);
   return CDEM_OK;
 }

@@ -10,11 +10,21 @@
  */
 #include "fdem/confine.h"
 
-/* Largest penalty of a material against any other. */
+/* Largest penalty of a material against any other, along the normal or across. */
 static double penalty_of(const cdem_fdem_options *o, int material) {
   double most = 0.0;
-  for (int m = 0; m < o->materials; m++)
-    most = fmax(most, o->law[material * o->materials + m].penalty);
+  for (int m = 0; m < o->materials; m++) {
+    const cdem_fdem_contact_law *law = o->law + (int64_t)material * o->materials + m;
+    most = fmax(most, law->penalty * fmax(1.0, law->shear_ratio));
+  }
+  return most;
+}
+
+/* Bound of the largest eigenvalue of the inverse inertia: 1 over the smallest moment. */
+static double lightest_turn(const double inverse[9]) {
+  double most = 0.0;
+  for (int i = 0; i < 3; i++)
+    most = fmax(most, fabs(inverse[3 * i]) + fabs(inverse[3 * i + 1]) + fabs(inverse[3 * i + 2]));
   return most;
 }
 
@@ -30,10 +40,8 @@ static double limit_of(const cdem_fdem_store *s, int64_t g) {
   const cdem_template *t = cdem_fdem_template(s, g);
   double size = s->radius[g], density = o->density[s->material[g]];
   double local = 4.0 * penalty_of(o, s->material[g]) * size * size * largest_area(&t->surface);
-  double stiff = fmax(s->stiff[g], local), spins = 0.0, reach = size * t->surface.reach;
-  for (int c = 0; c < 3; c++)
-    spins = fmax(spins, s->spins[9 * g + 4 * c]);
-  double rigid = 2.0 * stiff * (1.0 / s->mass[g] + reach * reach * spins);
+  double stiff = fmax(s->stiff[g], local), reach = size * t->surface.reach;
+  double rigid = 2.0 * stiff * (1.0 / s->mass[g] + reach * reach * lightest_turn(s->spins + 9 * g));
   double fast = 2.0 * local * t->mobility / (density * size * size * size);
   if (o->integration == CDEM_FDEM_EXPLICIT)
     return 2.0 / sqrt(rigid + fast + t->lambda[t->modes - 1] / (density * size * size));

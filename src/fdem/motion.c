@@ -4,8 +4,10 @@
  *     explicit  (v+ - v-)/dt = Q/g - w2 q_n - c (v+ + v-)/2
  *     implicit  (v+ - v-)/dt = Q/g - w2 q_{n+1} - c v+,   q_{n+1} = q_n + dt v+
  * Multiplied by g dt v+, the implicit one says what it takes out of the motion: g dt c v+^2 by
- * damping, and g (dv^2 + w2 dq^2)/2 by the scheme. Against works by the trapezoid, dt Q (v- +
- * v+)/2, it takes dt Q dv/2 less: `numerical` is what remains.
+ * damping, and g (dv^2 + w2 dq^2)/2 by the scheme. Against works by the trapezoid, Q (dt- v- + dt
+ * v+)/2, it takes Q (dt v+ - dt- v-)/2 less: `numerical` is what remains. dt- is the step before
+ * this one. v of the explicit scheme and of the rigid motion belongs to the middle of a step, so it
+ * is kicked by (dt- + dt)/2; that of the implicit one to its end.
  *
  * Rigid motion: v by its force, angular momentum L by its moment; the spin that turns the frame is
  * that of L at the orientation in the middle of the step.
@@ -128,7 +130,8 @@ typedef struct {
   const double *load, *lambda;
   double *q, *v;
   int modes;
-  double mass, size, kick, step, damping, ratio; /* of the generalised masses; w2 = lambda size */
+  double mass, size, kick, step, last, damping, ratio; /* of the generalised masses; w2 = lambda
+                                                          size; last: the step before */
 } mode_row;
 
 static void move_implicit(const mode_row *r, cdem_fdem_sums *sums) {
@@ -137,14 +140,14 @@ static void move_implicit(const mode_row *r, cdem_fdem_sums *sums) {
     double w2 = r->lambda[k] * r->size;
     double c = r->damping + 2.0 * r->ratio * sqrt(w2);
     double pull = r->load[k] / r->mass, old = r->v[k];
-    double next = (old + r->kick * (pull - w2 * r->q[k])) / (1.0 + r->kick * (r->step * w2 + c));
+    double next = (old + r->step * (pull - w2 * r->q[k])) / (1.0 + r->step * (r->step * w2 + c));
     double gain = next - old, way = r->step * next;
     damped += c * next * next;
-    numerical += gain * gain + w2 * way * way - r->kick * pull * gain;
+    numerical += gain * gain + w2 * way * way - pull * (way - r->last * old);
     r->v[k] = next;
     r->q[k] += way;
   }
-  sums->damping += r->mass * r->kick * damped;
+  sums->damping += r->mass * r->step * damped;
   sums->numerical += 0.5 * r->mass * numerical;
 }
 
@@ -175,6 +178,7 @@ static void move_modes(cdem_fdem_store *s, int64_t g, const double *load, double
                   .size = 1.0 / (density * radius * radius),
                   .kick = s->kick,
                   .step = step,
+                  .last = 2.0 * s->kick - step,
                   .damping = s->options.mass_damping,
                   .ratio = s->options.damping_ratio};
   if (s->options.integration == CDEM_FDEM_IMPLICIT)
@@ -268,6 +272,8 @@ void cdem_fdem_move_block(cdem_fdem_store *s, int32_t block, double step, cdem_f
     if (!move_rigid(s, g, step, &part->sums) && part->bad < 0)
       part->bad = g;
     move_modes(s, g, work->load + (int64_t)m * modes, step, &part->sums);
+    if (!isfinite(part->sums.damping + part->sums.numerical) && part->bad < 0)
+      part->bad = g; /* nodes that are nowhere would only stop touching */
   }
   cdem_fdem_place_block(s, block, work);
 }

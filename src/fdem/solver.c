@@ -28,9 +28,9 @@ cdem_contact_view cdem_fdem_contact_view(const cdem_fdem_store *s, double step) 
 
 cdem_status cdem_fdem_forces(cdem_fdem_store *s, double step, cdem_fault *fault) {
   cdem_contact_view view = cdem_fdem_contact_view(s, step);
+  const cdem_contact_forces out = {s->force, s->wall_force, s->wall_stiff, s->stiff};
   cdem_contact_book book = {0};
-  CDEM_TRY(cdem_fdem_contacts_forces(s->contacts, &view, s->force, s->wall_force, s->wall_stiff,
-                                     s->stiff, &book, fault));
+  CDEM_TRY(cdem_fdem_contacts_forces(s->contacts, &view, &out, &book, fault));
   s->contact.normal = book.normal;
   s->contact.shear = book.shear;
   s->contact.friction += book.friction;
@@ -154,7 +154,7 @@ static cdem_status report_bad(const cdem_fdem *fdem, cdem_fault *fault) {
     g = s->part[b].bad >= 0 ? s->part[b].bad : g;
   const double *x = s->center + 3 * (int64_t)g, *v = s->velocity + 3 * (int64_t)g;
   double speed = cdem_norm3(v);
-  CDEM_REQUIRE(isfinite(speed), fault, CDEM_NUMERIC,
+  CDEM_REQUIRE(isfinite(speed) && speed * fdem->step >= 0.5 * s->radius[g], fault, CDEM_NUMERIC,
                "the motion is no longer finite at t = %.6g s, at grain %d; a load or a motion may "
                "be too large, or the step too long",
                fdem->time, g);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NUMBERS = 14 };
+enum { NUMBERS = 13 };
 
 /* The loose numbers, either way. */
 static void walk(cdem_fdem *fdem, double value[NUMBERS], bool save) {
@@ -103,7 +103,6 @@ cdem_status cdem_fdem_restore(cdem_fdem *fdem, const cdem_state *state, cdem_fau
   walk(fdem, number, false);
   fdem->steps = count[0];
   s->base_steps = count[1];
-  CDEM_TRY(restore_walls(fdem, state, fault));
   for (int64_t g = 0; g < s->grains; g++)
     cdem_fdem_turn_of(s->quaternion + 4 * g, s->turn + 9 * g);
   for (int32_t b = 0; b < s->blocks; b++)
@@ -114,5 +113,7 @@ cdem_status cdem_fdem_restore(cdem_fdem *fdem, const cdem_state *state, cdem_fau
       CDEM_TRY(cdem_state_get(state, all[i].name, CDEM_ARRAY_REAL, all[i].count, s->before, fault));
   cdem_contact_view view = cdem_fdem_contact_view(s, fdem->step);
   CDEM_TRY(cdem_fdem_contacts_restore(s->contacts, &view, state, fault));
-  return s->confine != NULL ? cdem_fdem_confine_restore(fdem, state, fault) : CDEM_OK;
+  if (s->confine != NULL)
+    CDEM_TRY(cdem_fdem_confine_restore(fdem, state, fault));
+  return restore_walls(fdem, state, fault);
 }

@@ -51,18 +51,21 @@ typedef struct {
 cdem_status cdem_fdem_contacts_create(const cdem_contact_view *view, double skin, int threads,
                                       cdem_fdem_contacts **contacts, cdem_fault *fault);
 void cdem_fdem_contacts_destroy(cdem_fdem_contacts **contacts);
-/* Forces on all surface nodes in space, force [nodes][3] (overwritten), N; force of the grains on
- * each wall [walls][3] and the sum of its contacts' stiffnesses [walls]; each grain's sum of the
- * stiffnesses of the contacts it takes part in, as node or as triangle: stiff [grains], N/m. Builds
- * the list of neighbours anew when it is outlived. Deterministic for any number of threads. */
+/* Where an evaluation puts what it finds; all is overwritten. */
+typedef struct {
+  double *force;      /* [nodes][3] on surface nodes, in space, N */
+  double *wall_force; /* [walls][3] of the grains, N */
+  double *wall_stiff; /* [walls] sum of its contacts' stiffnesses, N/m */
+  double *stiff;      /* [grains] of the contacts it takes part in, as node or as triangle, N/m */
+} cdem_contact_forces;
+/* Builds the list of neighbours anew when it is outlived. Deterministic for any number of
+ * threads. */
 cdem_status cdem_fdem_contacts_forces(cdem_fdem_contacts *contacts, const cdem_contact_view *view,
-                                      double *force, double *wall_force, double *wall_stiff,
-                                      double *stiff, cdem_contact_book *book, cdem_fault *fault);
-/* The forces, walls' sums and stiffnesses of the last evaluation once more, to the same bits: what
- * a restored solver asks for. */
+                                      const cdem_contact_forces *out, cdem_contact_book *book,
+                                      cdem_fault *fault);
+/* The same of the last evaluation once more, to the same bits: what a restored solver asks for. */
 void cdem_fdem_contacts_gather(const cdem_fdem_contacts *contacts, const cdem_contact_view *view,
-                               double *force, double *wall_force, double *wall_stiff,
-                               double *stiff);
+                               const cdem_contact_forces *out);
 /* Nodes that touch, in the order of grains and nodes. */
 cdem_status cdem_fdem_contacts_list(const cdem_fdem_contacts *contacts,
                                     const cdem_contact_view *view, int64_t *touches,

@@ -3,7 +3,9 @@
 #include "io/io.h"
 #include "run/deformable.h"
 
+#include <limits.h>
 #include <math.h>
+#include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,7 +60,7 @@ static cdem_status make_shapes(cdem_run_deformable *d, const cdem_mesh *mesh, cd
         .shape = cdem_grain_shape_at(wanted->shape),
         .options = {.refinement = (int)wanted->refinement, .mesh = mesh},
         .material = &material,
-        .modes = (int)wanted->modes};
+        .modes = (int)(wanted->modes < INT_MAX ? wanted->modes : INT_MAX)};
     if (!g->of_grains[m])
       continue;
     status = elastic(d, m, &material, fault);
@@ -104,16 +106,12 @@ static cdem_status make_laws(cdem_run_deformable *d, cdem_fault *fault) {
                             CDEM_INPUT, fault,
                             "nodes of deformable grains are damped one by one: give "
                             "'damping_ratio', not 'restitution'");
-    *law = (cdem_fdem_contact_law){.penalty = meet ? value[CDEM_LAW_penalty_stiffness] : 0.0,
+    *law = (cdem_fdem_contact_law){.penalty = value[CDEM_LAW_penalty_stiffness],
                                    .shear_ratio = or_else(value[CDEM_LAW_shear_ratio], 1.0),
                                    .friction = or_else(value[CDEM_LAW_friction], 0.0),
                                    .damping_ratio = or_else(value[CDEM_LAW_damping_ratio], 0.0)};
   }
-  /* Materials that never meet get what any pair has: it is not looked at. */
-  for (int i = 0; i < count * count; i++)
-    if (!(d->law[i].penalty > 0.0))
-      d->law[i] = d->law[0];
-  return CDEM_OK;
+  return CDEM_OK; /* materials that never meet share the numbers of a pair that does */
 }
 
 /* ---- orientations ---- */
@@ -196,7 +194,7 @@ cdem_status cdem_run_deformable_solver(cdem_run_deformable *d, cdem_fault *fault
   CDEM_TRY(status);
   CDEM_TRY(make_laws(d, fault));
   CDEM_TRY(orient(d, fault));
-  d->run->threads = d->run->options->threads;
+  d->run->threads = d->run->options->threads > 0 ? d->run->options->threads : omp_get_max_threads();
   cdem_fdem_options options = options_of(d);
   status = cdem_fdem_init(&options, &d->fdem, &local);
   if (status == CDEM_INPUT)

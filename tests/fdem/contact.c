@@ -394,17 +394,17 @@ static void what_cannot_be_is_refused(void **state) {
               "-1 mean radii");
   m.center[3] = 0.008;
   set_now(&m);
-  check_fails(cdem_fdem_contacts_forces(m.contacts, &m.view, m.force, m.wall_force[0], m.wall_stiff,
-                                        m.stiff, &m.book, &fault),
-              CDEM_NUMERIC, "grain 0: its node at (0.01, ");
+  cdem_contact_forces out = model_out(&m);
+  check_fails(cdem_fdem_contacts_forces(m.contacts, &m.view, &out, &m.book, &fault), CDEM_NUMERIC,
+              "grain 0: its node at (0.01, ");
   model_release(&m);
   model_make(&m, 1, skins, 0.02, law);
   m.center[2] = -0.001;
   model_wall(&m, &(cdem_wall){.name = "floor", .shape = CDEM_WALL_PLANE, .normal = {0, 0, 1.0}});
   model_start(&m, 0.0, 1);
-  check_fails(cdem_fdem_contacts_forces(m.contacts, &m.view, m.force, m.wall_force[0], m.wall_stiff,
-                                        m.stiff, &m.book, &fault),
-              CDEM_NUMERIC, "m is 0.011 m deep in wall 'floor'");
+  out = model_out(&m);
+  check_fails(cdem_fdem_contacts_forces(m.contacts, &m.view, &out, &m.book, &fault), CDEM_NUMERIC,
+              "m is 0.011 m deep in wall 'floor'");
   model_release(&m);
 }
 
@@ -416,6 +416,7 @@ static void memory_that_ends_is_told(void **state) {
   heap(&m, 3, &random);
   model_start(&m, 0.0, 1);
   cdem_fdem_contacts_destroy(&m.contacts);
+  const cdem_contact_forces out = model_out(&m);
   cdem_status status = CDEM_MEMORY;
   int failures = 0;
   for (; status == CDEM_MEMORY; failures++) {
@@ -423,8 +424,7 @@ static void memory_that_ends_is_told(void **state) {
     cdem_memory_fail_after(failures);
     status = cdem_fdem_contacts_create(&m.view, 0.1, 1, &m.contacts, &fault);
     if (status == CDEM_OK)
-      status = cdem_fdem_contacts_forces(m.contacts, &m.view, m.force, m.wall_force[0],
-                                         m.wall_stiff, m.stiff, &m.book, &fault);
+      status = cdem_fdem_contacts_forces(m.contacts, &m.view, &out, &m.book, &fault);
     cdem_memory_fail_after(-1);
     if (status != CDEM_OK)
       cdem_fdem_contacts_destroy(&m.contacts);

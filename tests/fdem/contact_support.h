@@ -140,11 +140,15 @@ static inline void model_release(model *m) {
     free(all[k]);
 }
 
+static inline cdem_contact_forces model_out(model *m) {
+  return (cdem_contact_forces){m->force, m->wall_force[0], m->wall_stiff, m->stiff};
+}
+
 static void model_forces(model *m, double step) {
   cdem_fault fault = {0};
+  const cdem_contact_forces out = model_out(m);
   m->view.step = step;
-  check_ok(cdem_fdem_contacts_forces(m->contacts, &m->view, m->force, m->wall_force[0],
-                                     m->wall_stiff, m->stiff, &m->book, &fault));
+  check_ok(cdem_fdem_contacts_forces(m->contacts, &m->view, &out, &m->book, &fault));
   m->sum.friction += m->book.friction;
   m->sum.damping += m->book.damping;
   m->sum.walls += m->book.walls;
