@@ -75,7 +75,7 @@ static answer shear(bool deformable) {
   return a;
 }
 
-/* The law penalty is 2 p pi R* d^2 with the same p. Faces of icosphere 1 lie 0.97 % of r deeper
+/* The law penalty is 2 p pi R* d^2 with the same p. Faces of icosphere 1 lie 1 % of r deeper
  * than its nodes on the mean, so that its contacts are those of balls smaller by half of it, and
  * softer by their area, 0.98: on the way to the peak 10 % of the ratio is left for all that. Later
  * faces roll less well than spheres, and the peak is higher. */
