@@ -310,12 +310,13 @@ cdem_status cdem_fdem_confine_save(const cdem_fdem_store *s, cdem_state *state, 
   walk(b, real, true);
   real[REALS - 1] = b->sheared;
   CDEM_TRY(cdem_state_add_copy(state, "fdem/confine", CDEM_ARRAY_REAL, REALS, real, fault));
-  CDEM_TRY(
-      cdem_state_add(state, "fdem/confine_built", CDEM_ARRAY_REAL, 3 * s->grains, b->built, fault));
+  CDEM_TRY(cdem_state_add(state, "fdem/confine_lost", CDEM_ARRAY_REAL, b->membrane.rings, b->lost,
+                          fault));
   return cdem_membrane_save(&b->membrane, state, fault);
 }
 
-/* Which touches there are does not depend on when the rows were made. */
+/* Which touches there are does not depend on when the rows were made. What they push does on the
+ * step of then, which may have changed since: that is taken from the state. */
 cdem_status cdem_fdem_confine_restore(cdem_fdem *fdem, const cdem_state *state, cdem_fault *fault) {
   cdem_fdem_store *s = fdem->store;
   struct cdem_fdem_confine *b = s->confine;
@@ -327,11 +328,10 @@ cdem_status cdem_fdem_confine_restore(cdem_fdem *fdem, const cdem_state *state, 
     cdem_fdem_shear(fdem, b->speed);
   calm(fdem);
   CDEM_TRY(cdem_fdem_confine_lists(fdem, true, fault));
-  double damped = b->damped;
   for (int32_t ring = 0; ring < b->membrane.rings; ring++)
-    touch_ring(s, b, ring, fdem->step);
-  for (int32_t ring = 0; ring < b->membrane.rings; ring++)
-    cdem_membrane_gather(&b->membrane, ring);
-  b->damped = damped;
-  return CDEM_OK;
+    touch_ring(s, b, ring, 0.0);
+  CDEM_TRY(cdem_membrane_restore(&b->membrane, state, fault));
+  cdem_membrane_mark(&b->membrane);
+  return cdem_state_get(state, "fdem/confine_lost", CDEM_ARRAY_REAL, b->membrane.rings, b->lost,
+                        fault);
 }

@@ -114,5 +114,8 @@ cdem_status cdem_fdem_restore(cdem_fdem *fdem, const cdem_state *state, cdem_fau
       CDEM_TRY(cdem_state_get(state, all[i].name, CDEM_ARRAY_REAL, all[i].count, s->before, fault));
   cdem_contact_view view = cdem_fdem_contact_view(s, fdem->step);
   CDEM_TRY(cdem_fdem_contacts_restore(s->contacts, &view, state, fault));
-  return s->confine != NULL ? cdem_fdem_confine_restore(fdem, state, fault) : CDEM_OK;
+  if (s->confine == NULL)
+    return CDEM_OK;
+  CDEM_TRY(cdem_fdem_confine_restore(fdem, state, fault));
+  return restore_walls(fdem, state, fault); /* the shear has begun anew with its plate */
 }
