@@ -170,7 +170,7 @@ double cdem_run_triaxial_shear(cdem_run_triaxial *plan, double height, double vo
 void cdem_run_triaxial_columns(cdem_run_triaxial *plan, const cdem_run_specimen *s,
                                cdem_run_row *row) {
   double axial = NAN, volumetric = NAN, ratio = NAN;
-  if (plan->shears) {
+  if (plan->shears && !row->declare) { /* a continued run declares its columns once more */
     axial = log(plan->height / s->height);
     volumetric = log(plan->volume / s->volume);
     plan->contraction = fmax(plan->contraction, volumetric);
