@@ -8,7 +8,8 @@
  * Damping and the scheme's loss are summed by kicks (motion.c); of the kick at t_n, which is still
  * to come, half belongs to the time before t_n: m v- (v- + dt a - v+)/2 of damping, and dt Q v-/2
  * of implicit modes, the half of the trapezoid's work that the energy g v-^2/2 has not had yet.
- * After a change of the step dt is the kick's, (dt- + dt+)/2, and in the last of them dt-.
+ * After a change of the step dt is the kick's, (dt- + dt+)/2, in the last of them dt-, and v- is
+ * taken dt/2 before t_n instead of dt-/2.
  */
 #include "fdem/confine.h"
 
@@ -21,8 +22,9 @@ static double damped(double v, double push, double half) {
   return ((1.0 - half) * v + push) / (1.0 + half);
 }
 
-static void rigid(const cdem_fdem_store *s, int64_t g, sums *sum) {
-  const double *v = s->velocity + 3 * g, *l = s->momentum + 3 * g, *center = s->center + 3 * g;
+static void rigid(const cdem_fdem_store *s, int64_t g, double later, sums *sum) {
+  const double *center = s->center + 3 * g;
+  double v[3], l[3];
   double force[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0}, next[3], lost[3], spin[3];
   const double step = s->kick;
   double half = 0.5 * step * s->options.mass_damping;
@@ -37,6 +39,8 @@ static void rigid(const cdem_fdem_store *s, int64_t g, sums *sum) {
   }
   for (int c = 0; c < 3; c++) {
     double push = step * (force[c] / s->mass[g] + s->options.gravity[c]);
+    v[c] = s->velocity[3 * g + c] + later * (push / step);
+    l[c] = s->momentum[3 * g + c] + later * moment[c];
     double then = damped(v[c], push, half);
     sum->translation += 0.5 * s->mass[g] * v[c] * then;
     sum->damping += 0.5 * s->mass[g] * v[c] * (v[c] + push - then);
@@ -49,30 +53,33 @@ static void rigid(const cdem_fdem_store *s, int64_t g, sums *sum) {
   sum->damping += 0.5 * cdem_dot3(l, spin);
 }
 
-static void modes(const cdem_fdem_store *s, int64_t g, const double *load, double step, sums *sum) {
+static void modes(const cdem_fdem_store *s, int64_t g, const double *load, double later,
+                  sums *sum) {
   const cdem_template *t = cdem_fdem_template(s, g);
-  const double *q = s->q + s->mode[g], *v = s->rate + s->mode[g];
+  const double *q = s->q + s->mode[g], *speed = s->rate + s->mode[g];
   double density = s->options.density[s->material[g]], r = s->radius[g];
-  double mass = density * r * r * r, last = 2.0 * s->kick - step;
+  double mass = density * r * r * r, last = s->kick + 2.0 * later;
   bool implicit = s->options.integration == CDEM_FDEM_IMPLICIT;
   for (int k = 0; k < t->modes; k++) {
     double stiff = r * t->lambda[k];
     sum->elastic += 0.5 * stiff * q[k] * q[k];
     if (implicit) {
-      sum->vibration += 0.5 * mass * v[k] * v[k];
-      sum->numerical += 0.5 * last * load[k] * v[k];
+      sum->vibration += 0.5 * mass * speed[k] * speed[k];
+      sum->numerical += 0.5 * last * load[k] * speed[k];
       continue;
     }
     double push = s->kick * (load[k] - stiff * q[k]) / mass;
     double rate = s->options.mass_damping + 2.0 * s->options.damping_ratio * sqrt(stiff / mass);
-    double next = damped(v[k], push, 0.5 * s->kick * rate);
-    sum->vibration += 0.5 * mass * v[k] * next;
-    sum->damping += 0.5 * mass * v[k] * (v[k] + push - next);
+    double v = speed[k] + later * (push / s->kick);
+    double next = damped(v, push, 0.5 * s->kick * rate);
+    sum->vibration += 0.5 * mass * v * next;
+    sum->damping += 0.5 * mass * v * (v + push - next);
   }
 }
 
 static void sum_up(const cdem_fdem *fdem, cdem_fdem_energies *e) {
   const cdem_fdem_store *s = fdem->store;
+  const double later = 0.5 * (s->kick - fdem->step);
   sums sum = {0};
   for (int32_t b = 0; b < s->blocks; b++) {
     const cdem_fdem_block *block = s->block + b;
@@ -80,8 +87,8 @@ static void sum_up(const cdem_fdem *fdem, cdem_fdem_energies *e) {
     cdem_fdem_loads_of(s, b, s->work);
     for (int m = 0; m < block->count; m++) {
       int64_t g = s->member[block->first + m];
-      rigid(s, g, &sum);
-      modes(s, g, s->work->load + (int64_t)m * count, fdem->step, &sum);
+      rigid(s, g, later, &sum);
+      modes(s, g, s->work->load + (int64_t)m * count, later, &sum);
     }
   }
   e->translation = sum.translation;

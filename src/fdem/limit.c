@@ -6,7 +6,10 @@
  * how that node gives way within a step: at most mobility dt^2/(rho s^3) and, in the implicit
  * scheme, at most compliance/s whatever the step. Stable is dt^2 omega^2 < 4 (explicit central
  * differences), the highest mode of the grains itself included where modes are explicit. The
- * stiffness at one node is taken as four nodes' penalty: two of each of the two surfaces.
+ * stiffness at one node is taken as four nodes' penalty: two of each of the two surfaces. So omega
+ * of one node is half of what is reckoned with, and its dashpot, whose force lags half a step
+ * behind, has room up to dt omega/2 = 2 (sqrt(1 + beta^2) - beta): that is beyond the limit
+ * without it unless beta is above 3/4.
  */
 #include "fdem/confine.h"
 
@@ -18,6 +21,14 @@ static double penalty_of(const cdem_fdem_options *o, int material) {
     most = fmax(most, law->penalty * fmax(1.0, law->shear_ratio));
   }
   return most;
+}
+
+/* What strong dashpots leave of the step. */
+static double left_by_dashpots(const cdem_fdem_options *o, int material) {
+  double beta = 0.0;
+  for (int m = 0; m < o->materials; m++)
+    beta = fmax(beta, o->law[(int64_t)material * o->materials + m].damping_ratio);
+  return fmin(1.0, 2.0 / (sqrt(1.0 + beta * beta) + beta));
 }
 
 /* Bound of the largest eigenvalue of the inverse inertia: 1 over the smallest moment. */
@@ -35,7 +46,7 @@ static double largest_area(const cdem_skin *surface) {
   return most;
 }
 
-static double limit_of(const cdem_fdem_store *s, int64_t g) {
+static double elastic_limit(const cdem_fdem_store *s, int64_t g) {
   const cdem_fdem_options *o = &s->options;
   const cdem_template *t = cdem_fdem_template(s, g);
   double size = s->radius[g], density = o->density[s->material[g]];
@@ -48,6 +59,10 @@ static double limit_of(const cdem_fdem_store *s, int64_t g) {
   double slow = 2.0 * local * t->compliance / size;
   double step = 2.0 / sqrt(rigid + fast);
   return slow < 4.0 ? fmax(step, sqrt((4.0 - slow) / rigid)) : step;
+}
+
+static double limit_of(const cdem_fdem_store *s, int64_t g) {
+  return left_by_dashpots(&s->options, s->material[g]) * elastic_limit(s, g);
 }
 
 double cdem_fdem_limit(const cdem_fdem *fdem) {

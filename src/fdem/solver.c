@@ -50,12 +50,14 @@ static cdem_status evaluate(cdem_fdem *fdem, double step, cdem_fault *fault) {
 
 /* ---- making ---- */
 
-/* From velocities at t = 0 to those of half a step before; places a step ago for the dashpots. */
+/* From velocities at t = 0 to those of half a step before, of which the first kick and its damping
+ * make them the mean; places a step ago for the dashpots. */
 static void set_before(cdem_fdem *fdem) {
   cdem_fdem_store *s = fdem->store;
-  double step = fdem->step;
+  double step = fdem->step, damp = 1.0 + 0.5 * step * s->options.mass_damping;
   for (int64_t g = 0; g < s->grains; g++) {
     double *v = s->velocity + 3 * g, *l = s->momentum + 3 * g, spin[3];
+    double push[3] = {0.0, 0.0, 0.0};
     const double *center = s->center + 3 * g;
     cdem_fdem_spin_of(s, g, s->turn + 9 * g, l, spin);
     for (int64_t i = s->first[g]; i < s->first[g + 1]; i++) {
@@ -64,15 +66,17 @@ static void set_before(cdem_fdem *fdem) {
       cdem_cross3(spin, arm, turn);
       cdem_cross3(arm, f, moment);
       for (int c = 0; c < 3; c++)
-        s->before[3 * i + c] = x[c] - step * (s->velocity[3 * g + c] + turn[c]);
+        s->before[3 * i + c] = x[c] - step * (v[c] + turn[c]);
       for (int c = 0; c < 3; c++)
-        l[c] -= 0.5 * step * moment[c];
+        push[c] += 0.5 * step * moment[c];
+    }
+    for (int c = 0; c < 3; c++) {
+      l[c] = damp * l[c] - push[c];
+      v[c] = damp * v[c] - 0.5 * step * s->options.gravity[c];
     }
     for (int64_t i = s->first[g]; i < s->first[g + 1]; i++)
       for (int c = 0; c < 3; c++)
         v[c] -= 0.5 * step * s->force[3 * i + c] / s->mass[g];
-    for (int c = 0; c < 3; c++)
-      v[c] -= 0.5 * step * s->options.gravity[c];
   }
 }
 
@@ -86,11 +90,11 @@ static cdem_status start(cdem_fdem *fdem, cdem_fault *fault) {
   CDEM_TRY(cdem_fdem_confine_init(fdem, fault));
   CDEM_TRY(evaluate(fdem, 0.0, fault));
   CDEM_TRY(cdem_fdem_first_step(fdem, fault));
-  set_before(fdem);
-  if (s->confine != NULL) {
-    cdem_membrane_change_step(&s->confine->membrane, 0.0, fdem->step);
+  if (s->confine != NULL)
     cdem_fdem_confine_calm(fdem);
-  }
+  set_before(fdem);
+  if (s->confine != NULL)
+    cdem_membrane_change_step(&s->confine->membrane, 0.0, fdem->step);
   cdem_fdem_book_start(fdem);
   return CDEM_OK;
 }

@@ -77,8 +77,14 @@ static cdem_status advance(cdem_run_setup *run, int64_t steps, cdem_fault *fault
 }
 
 static cdem_status look(cdem_run_setup *run, cdem_fault *fault) {
-  (void)fault;
-  cdem_fdem_follow(&cdem_run_deformable_of(run)->fdem);
+  cdem_fdem *fdem = &cdem_run_deformable_of(run)->fdem;
+  double limit = cdem_fdem_limit(fdem);
+  if (!isnan(cdem_run_values(run)->step) && fdem->step > limit)
+    return cdem_case_fail(&run->cases, "step", CDEM_NUMERIC, fault,
+                          "at t = %.6g s the step of %.4g s has become unstable: the limit is now "
+                          "%.4g s, set by %s; take a smaller one, or leave `step` out",
+                          fdem->time, fdem->step, limit, run->limiter);
+  cdem_fdem_follow(fdem);
   return CDEM_OK;
 }
 

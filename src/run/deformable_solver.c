@@ -84,10 +84,35 @@ static double or_else(double value, double otherwise) {
   return isnan(value) ? otherwise : value;
 }
 
+/* Words of the law that mean nothing node by node. */
+static cdem_status check_words(const cdem_run_deformable *d, int entry, const double *value,
+                               cdem_fault *fault) {
+  const cdem_case *cases = &d->run->cases;
+  char key[96];
+  if (isnan(value[CDEM_LAW_penalty_stiffness]))
+    return cdem_case_fail(cases, cdem_run_key(key, "contacts", entry, ""), CDEM_INPUT, fault,
+                          "contacts of deformable grains need 'penalty_stiffness'");
+  if (!isnan(value[CDEM_LAW_restitution]))
+    return cdem_case_fail(cases, cdem_run_key(key, "contacts", entry, "restitution"), CDEM_INPUT,
+                          fault,
+                          "nodes of deformable grains are damped one by one: give "
+                          "'damping_ratio', not 'restitution'");
+  if (!isnan(value[CDEM_LAW_shear_damping_ratio]))
+    return cdem_case_fail(
+        cases, cdem_run_key(key, "contacts", entry, "shear_damping_ratio"), CDEM_INPUT, fault,
+        "nodes of deformable grains have one 'damping_ratio' for both directions; "
+        "leave it out");
+  if (value[CDEM_LAW_shear_ratio] == 0.0)
+    return cdem_case_fail(cases, cdem_run_key(key, "contacts", entry, "shear_ratio"), CDEM_INPUT,
+                          fault,
+                          "the shear ratio of deformable grains is 0 and must be positive; let "
+                          "'friction' be 0 for contacts without shear");
+  return CDEM_OK;
+}
+
 static cdem_status make_laws(cdem_run_deformable *d, cdem_fault *fault) {
   const cdem_run_grains *g = d->grains;
   int count = g->materials;
-  char key[96];
   CDEM_NEW(d->law, (int64_t)count * count, fault);
   CDEM_NEW(d->density, count, fault);
   for (int m = 0; m < count; m++)
@@ -95,17 +120,8 @@ static cdem_status make_laws(cdem_run_deformable *d, cdem_fault *fault) {
   for (int i = 0; i < count * count; i++) {
     const double *value = g->contact[i].value;
     cdem_fdem_contact_law *law = &d->law[i];
-    bool meet = g->contact_entry[i] >= 0;
-    if (meet && isnan(value[CDEM_LAW_penalty_stiffness]))
-      return cdem_case_fail(&d->run->cases, cdem_run_key(key, "contacts", g->contact_entry[i], ""),
-                            CDEM_INPUT, fault,
-                            "contacts of deformable grains need 'penalty_stiffness'");
-    if (meet && !isnan(value[CDEM_LAW_restitution]))
-      return cdem_case_fail(&d->run->cases,
-                            cdem_run_key(key, "contacts", g->contact_entry[i], "restitution"),
-                            CDEM_INPUT, fault,
-                            "nodes of deformable grains are damped one by one: give "
-                            "'damping_ratio', not 'restitution'");
+    if (g->contact_entry[i] >= 0)
+      CDEM_TRY(check_words(d, g->contact_entry[i], value, fault));
     *law = (cdem_fdem_contact_law){.penalty = value[CDEM_LAW_penalty_stiffness],
                                    .shear_ratio = or_else(value[CDEM_LAW_shear_ratio], 1.0),
                                    .friction = or_else(value[CDEM_LAW_friction], 0.0),
