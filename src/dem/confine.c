@@ -279,6 +279,7 @@ bool cdem_dem_specimen(const cdem_dem *dem, cdem_specimen *now) {
   now->area = now->volume / now->height;
   now->axial = force[6 * (int64_t)b->options.high + 2] / now->area;
   now->bottom = -force[6 * (int64_t)b->options.low + 2] / now->area;
+  now->speed = dem->store->walls->body[b->options.high].velocity[2];
   if (!b->flexible) {
     const cdem_wall_body *side = dem->store->walls->body + b->options.side;
     now->lateral =

@@ -35,6 +35,7 @@ typedef struct {
   double axial, bottom;  /* force of the grains on the high and the low plate over V/H */
   double lateral;   /* mean of what the grains push the side out by; of a membrane mostly in its
                        middle (cdem_membrane_shape) */
+  double speed;     /* of the high plate along z, m/s */
   int32_t touching; /* nodes of the membrane that touch a grain */
 } cdem_specimen;
 

@@ -79,7 +79,7 @@ static outcome advance(cdem_dem *dem) {
     moved2 = fmax(moved2, core->part[c].moved2);
     bad |= core->part[c].bad >= 0;
   }
-  if (bad)
+  if (bad || (core->confine != NULL && isnan(core->confine->moved)))
     return FAILED;
   double moved = sqrt(moved2);
   if (core->flow.on)
@@ -151,6 +151,10 @@ static outcome team(cdem_dem *dem, bool moved, int64_t *left) {
 static cdem_status report_bad(const cdem_dem *dem, cdem_fault *fault) {
   const cdem_dem_store *s = dem->store;
   int32_t at = 0;
+  CDEM_REQUIRE(s->core->confine == NULL || !isnan(s->core->confine->moved), fault, CDEM_NUMERIC,
+               "the membrane is no longer finite at t = %.6g s; the pressure may be too large, or "
+               "the step too long",
+               dem->time);
   for (int32_t c = s->core->chunks - 1; c >= 0; c--)
     at = s->core->part[c].bad >= 0 ? s->core->part[c].bad : at;
   const double *x = cdem_place(s, at), *v = cdem_motion(s, at);

@@ -211,6 +211,10 @@ static void add_to_grain(cdem_fdem_store *s, const struct cdem_fdem_confine *b, 
 cdem_status cdem_fdem_confine_forces(cdem_fdem *fdem, double step, cdem_fault *fault) {
   cdem_fdem_store *s = fdem->store;
   struct cdem_fdem_confine *b = s->confine;
+  CDEM_REQUIRE(!isnan(b->moved), fault, CDEM_NUMERIC,
+               "the membrane is no longer finite at t = %.6g s; the pressure may be too large, or "
+               "the step too long",
+               fdem->time);
   CDEM_TRY(cdem_fdem_confine_lists(fdem, false, fault));
 #pragma omp parallel num_threads(s->threads)
   {
@@ -274,6 +278,7 @@ bool cdem_fdem_specimen(const cdem_fdem *fdem, cdem_specimen *now) {
   now->area = now->volume / now->height;
   now->axial = s->wall_force[3 * b->options.high + 2] / now->area;
   now->bottom = -s->wall_force[3 * b->options.low + 2] / now->area;
+  now->speed = s->wall[b->options.high].velocity[2];
   now->lateral = shape.lateral;
   for (int32_t i = 0; i < b->membrane.nodes; i++)
     for (int64_t k = b->row[i]; k < b->row[i + 1]; k++)

@@ -2,43 +2,38 @@
 #include "dem/frames_membrane.h"
 #include "run/deformable.h"
 
+static cdem_run_now now_of(const void *solver) {
+  const cdem_fdem *fdem = solver;
+  return (cdem_run_now){.time = fdem->time, .step = fdem->step, .steps = fdem->steps};
+}
+
+static cdem_status steps_of(void *solver, int64_t steps, cdem_fault *fault) {
+  return cdem_fdem_steps(solver, steps, fault);
+}
+
+static void specimen_of(const void *solver, cdem_specimen *specimen) {
+  cdem_fdem_specimen(solver, specimen);
+}
+
+static void shear_of(void *solver, double velocity) {
+  cdem_fdem_shear(solver, velocity);
+}
+
+static cdem_run_triaxial_host host_of(cdem_run_deformable *d) {
+  return (cdem_run_triaxial_host){&d->fdem, now_of, steps_of, specimen_of, shear_of};
+}
+
 cdem_status cdem_run_deformable_advance(cdem_run_deformable *d, int64_t steps, cdem_fault *fault) {
-  cdem_run_triaxial *plan = &d->grains->triaxial;
-  while (d->grains->has_triaxial && !plan->shears) {
-    const cdem_run_now now = {.time = d->fdem.time, .step = d->fdem.step, .steps = d->fdem.steps};
-    int64_t before = cdem_run_triaxial_steps(plan, &now);
-    if (before > steps)
-      break;
-    CDEM_TRY(cdem_fdem_steps(&d->fdem, before, fault));
-    steps -= before;
-    if (before > 0)
-      continue;
-    cdem_specimen at;
-    cdem_fdem_specimen(&d->fdem, &at);
-    cdem_fdem_shear(&d->fdem, cdem_run_triaxial_shear(plan, at.height, at.volume));
-  }
-  return cdem_fdem_steps(&d->fdem, steps, fault);
+  const cdem_run_triaxial_host host = host_of(d);
+  return d->grains->has_triaxial
+             ? cdem_run_triaxial_advance(&d->grains->triaxial, &host, steps, fault)
+             : cdem_fdem_steps(&d->fdem, steps, fault);
 }
 
 void cdem_run_deformable_triaxial_columns(cdem_run_deformable *d, cdem_run_row *row) {
-  cdem_run_specimen specimen = {0};
-  cdem_specimen at = {0};
-  if (!d->grains->has_triaxial)
-    return;
-  if (!row->declare) {
-    double force[3], center[3], velocity[3];
-    cdem_fdem_specimen(&d->fdem, &at);
-    cdem_fdem_wall_now(&d->fdem, d->grains->confinement.high, force, center, velocity);
-    specimen = (cdem_run_specimen){.pressure = at.pressure,
-                                   .height = at.height,
-                                   .volume = at.volume,
-                                   .axial = at.axial,
-                                   .bottom = at.bottom,
-                                   .lateral = at.lateral,
-                                   .speed = velocity[2]};
-  }
-  cdem_run_triaxial_columns(&d->grains->triaxial, &specimen, row);
-  cdem_run_put(row, "", (double)at.touching, "membrane_touching");
+  const cdem_run_triaxial_host host = host_of(d);
+  if (d->grains->has_triaxial)
+    cdem_run_triaxial_columns(&d->grains->triaxial, &host, row);
 }
 
 cdem_status cdem_run_deformable_membrane(const cdem_run_deformable *d, int64_t index,

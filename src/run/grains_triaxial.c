@@ -115,41 +115,35 @@ cdem_status cdem_run_grains_triaxial(cdem_run_grains *g, cdem_fault *fault) {
 
 /* ---- stages ---- */
 
+static cdem_run_now now_of(const void *solver) {
+  const cdem_dem *dem = solver;
+  return (cdem_run_now){.time = dem->time, .step = dem->step, .steps = dem->steps};
+}
+
+static cdem_status steps_of(void *solver, int64_t steps, cdem_fault *fault) {
+  return cdem_dem_steps(solver, steps, fault);
+}
+
+static void specimen_of(const void *solver, cdem_specimen *specimen) {
+  cdem_dem_specimen(solver, specimen);
+}
+
+static void shear_of(void *solver, double velocity) {
+  cdem_dem_shear(solver, velocity);
+}
+
+static cdem_run_triaxial_host host_of(cdem_run_grains *g) {
+  return (cdem_run_triaxial_host){&g->dem, now_of, steps_of, specimen_of, shear_of};
+}
+
 cdem_status cdem_run_grains_advance(cdem_run_grains *g, int64_t steps, cdem_fault *fault) {
-  while (g->has_triaxial && !g->triaxial.shears) {
-    const cdem_run_now now = {.time = g->dem.time, .step = g->dem.step, .steps = g->dem.steps};
-    int64_t before = cdem_run_triaxial_steps(&g->triaxial, &now);
-    if (before > steps)
-      break;
-    CDEM_TRY(cdem_dem_steps(&g->dem, before, fault));
-    steps -= before;
-    if (before > 0)
-      continue;
-    cdem_specimen at;
-    cdem_dem_specimen(&g->dem, &at);
-    cdem_dem_shear(&g->dem, cdem_run_triaxial_shear(&g->triaxial, at.height, at.volume));
-  }
-  return cdem_dem_steps(&g->dem, steps, fault);
+  const cdem_run_triaxial_host host = host_of(g);
+  return g->has_triaxial ? cdem_run_triaxial_advance(&g->triaxial, &host, steps, fault)
+                         : cdem_dem_steps(&g->dem, steps, fault);
 }
 
 void cdem_run_grains_triaxial_columns(cdem_run_grains *g, cdem_run_row *row) {
-  cdem_run_specimen specimen = {0};
-  cdem_specimen at = {0};
-  if (!g->has_triaxial)
-    return;
-  if (!row->declare) {
-    cdem_dem_wall top;
-    cdem_dem_specimen(&g->dem, &at);
-    cdem_dem_wall_now(&g->dem, HIGH, &top);
-    specimen = (cdem_run_specimen){.pressure = at.pressure,
-                                   .height = at.height,
-                                   .volume = at.volume,
-                                   .axial = at.axial,
-                                   .bottom = at.bottom,
-                                   .lateral = at.lateral,
-                                   .speed = top.velocity[2]};
-  }
-  cdem_run_triaxial_columns(&g->triaxial, &specimen, row);
-  if (g->confinement.membrane != NULL)
-    cdem_run_put(row, "", (double)at.touching, "membrane_touching");
+  const cdem_run_triaxial_host host = host_of(g);
+  if (g->has_triaxial)
+    cdem_run_triaxial_columns(&g->triaxial, &host, row);
 }

@@ -152,23 +152,40 @@ void cdem_run_triaxial_membrane(const cdem_run_setup *run, const cdem_run_triaxi
 
 /* ---- stages ---- */
 
-/* The step nearest to `begin`, whatever the strides. */
-int64_t cdem_run_triaxial_steps(const cdem_run_triaxial *plan, const cdem_run_now *now) {
-  if (plan->shears)
-    return 0;
+static int64_t steps_before_shear(const cdem_run_triaxial *plan, const cdem_run_now *now) {
   double steps = ceil((plan->begin - now->time) / now->step - 0.5);
   return steps < 0.0 ? 0 : steps < 1e15 ? (int64_t)steps : (int64_t)1e15;
 }
 
-double cdem_run_triaxial_shear(cdem_run_triaxial *plan, double height, double volume) {
+static void shear(cdem_run_triaxial *plan, const cdem_run_triaxial_host *host) {
+  cdem_specimen at;
+  host->specimen(host->solver, &at);
   plan->shears = true;
-  plan->height = height;
-  plan->volume = volume;
-  return -plan->rate * height;
+  plan->height = at.height;
+  plan->volume = at.volume;
+  host->shear(host->solver, -plan->rate * at.height);
 }
 
-void cdem_run_triaxial_columns(cdem_run_triaxial *plan, const cdem_run_specimen *s,
+cdem_status cdem_run_triaxial_advance(cdem_run_triaxial *plan, const cdem_run_triaxial_host *host,
+                                      int64_t steps, cdem_fault *fault) {
+  while (!plan->shears) {
+    const cdem_run_now now = host->now(host->solver);
+    int64_t before = steps_before_shear(plan, &now);
+    if (before > steps)
+      break;
+    CDEM_TRY(host->steps(host->solver, before, fault));
+    steps -= before;
+    if (before == 0)
+      shear(plan, host);
+  }
+  return host->steps(host->solver, steps, fault);
+}
+
+void cdem_run_triaxial_columns(cdem_run_triaxial *plan, const cdem_run_triaxial_host *host,
                                cdem_run_row *row) {
+  cdem_specimen at = {0}, *s = &at;
+  if (!row->declare)
+    host->specimen(host->solver, s);
   double axial = NAN, volumetric = NAN, ratio = NAN;
   if (plan->shears && !row->declare) { /* a continued run declares its columns once more */
     axial = log(plan->height / s->height);
@@ -193,6 +210,7 @@ void cdem_run_triaxial_columns(cdem_run_triaxial *plan, const cdem_run_specimen 
                                        sqrt(plan->sizes.density / s->pressure)
                                  : NAN,
                "inertial_number");
+  cdem_run_put(row, "", (double)s->touching, "membrane_touching");
 }
 
 /* ---- state ---- */

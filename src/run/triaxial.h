@@ -13,7 +13,7 @@
 #ifndef CDEM_RUN_TRIAXIAL_H
 #define CDEM_RUN_TRIAXIAL_H
 
-#include "dem/membrane.h"
+#include "dem/confinement.h"
 #include "run/setup.h"
 
 /* Of the grains: what dimensionless numbers are made of. */
@@ -35,12 +35,14 @@ typedef struct {
   double contraction;    /* the largest volumetric strain of the rows so far */
 } cdem_run_triaxial;
 
-/* What a solver says of its specimen now; compression positive. */
+/* A solver that carries out the plan. */
 typedef struct {
-  double pressure, height, volume; /* wanted, Pa; m; m^3 */
-  double axial, bottom, lateral;   /* Pa, over V/H; lateral: of the grains on the side */
-  double speed;                    /* of the upper plate along z, m/s */
-} cdem_run_specimen;
+  void *solver;
+  cdem_run_now (*now)(const void *solver);
+  cdem_status (*steps)(void *solver, int64_t steps, cdem_fault *fault);
+  void (*specimen)(const void *solver, cdem_specimen *specimen);
+  void (*shear)(void *solver, double velocity); /* the high plate goes with it from now on */
+} cdem_run_triaxial_host;
 
 /* Fills the plan and what follows from it in the case: `end`, `history_every`, `frame_every`, usual
  * results and curves where those of the same name are not given. */
@@ -51,11 +53,11 @@ cdem_status cdem_run_triaxial_plan(cdem_run_setup *run, const cdem_run_triaxial_
 void cdem_run_triaxial_membrane(const cdem_run_setup *run, const cdem_run_triaxial *plan,
                                 const double low[3], const double high[3],
                                 cdem_membrane_options *options);
-/* Steps until the shear begins: 0: now or before. */
-int64_t cdem_run_triaxial_steps(const cdem_run_triaxial *plan, const cdem_run_now *now);
-/* The shear begins; returns the velocity of the upper plate, m/s. */
-double cdem_run_triaxial_shear(cdem_run_triaxial *plan, double height, double volume);
-void cdem_run_triaxial_columns(cdem_run_triaxial *plan, const cdem_run_specimen *specimen,
+/* So many steps; the shear begins at the step nearest to its time, however steps are parted into
+ * calls. */
+cdem_status cdem_run_triaxial_advance(cdem_run_triaxial *plan, const cdem_run_triaxial_host *host,
+                                      int64_t steps, cdem_fault *fault);
+void cdem_run_triaxial_columns(cdem_run_triaxial *plan, const cdem_run_triaxial_host *host,
                                cdem_run_row *row);
 cdem_status cdem_run_triaxial_save(const cdem_run_triaxial *plan, cdem_state *state,
                                    cdem_fault *fault);
