@@ -3,6 +3,7 @@
 #include "cases/schema.h"
 #include "command.h"
 #include "dem/packing.h"
+#include "fdem/template.h"
 
 #include <math.h>
 #include <string.h>
@@ -105,6 +106,17 @@ static void list_packings(void) {
   }
 }
 
+static void list_shapes(void) {
+  printf("shapes of deformable grains (grains.deformable.shape), with their refinements\n");
+  for (int i = 0; cdem_grain_shape_at(i) != NULL; i++) {
+    const cdem_grain_shape *shape = cdem_grain_shape_at(i);
+    printf("  %-12s ", shape->name);
+    if (shape->most > 0)
+      printf("(%d to %d) ", shape->least, shape->most);
+    printf("%s\n", shape->help);
+  }
+}
+
 static void list_commands(void) {
   printf("commands\n");
   for (const command *c = commands; c->name != NULL; c++)
@@ -116,8 +128,8 @@ static const struct {
   void (*print)(void);
 } topics[] = {
     {"elements", list_elements}, {"materials", list_materials}, {"formats", list_formats},
-    {"laws", list_laws},         {"packings", list_packings},   {"commands", list_commands},
-    {"case", list_case},
+    {"laws", list_laws},         {"packings", list_packings},   {"shapes", list_shapes},
+    {"commands", list_commands}, {"case", list_case},
 };
 
 enum { TOPICS = sizeof topics / sizeof topics[0] };
@@ -134,13 +146,14 @@ static error_t parse(int key, char *text, struct argp_state *state) {
 
 int cmd_list(int argc, char **argv) {
   static const struct argp_option none[] = {{0}};
-  static const struct argp argp = {none,
-                                   parse,
-                                   "[elements|materials|formats|laws|packings|commands|case]",
-                                   "Lists what the program knows.",
-                                   NULL,
-                                   NULL,
-                                   NULL};
+  static const struct argp argp = {
+      none,
+      parse,
+      "[elements|materials|formats|laws|packings|shapes|commands|case]",
+      "Lists what the program knows.",
+      NULL,
+      NULL,
+      NULL};
   const char *topic = NULL, *names[TOPICS];
   command_parse(&argp, argc, argv, &topic);
   for (int i = 0; i < TOPICS; i++)

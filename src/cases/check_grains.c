@@ -254,6 +254,8 @@ static cdem_status check_deformable(const cdem_case *cases, cdem_fault *fault) {
       {"cell", "they do not know periodic cells"},
       {"probes", "the columns of their history hold pushes, fabric and stress anyway"},
       {"grains.pictures", "frames show them, and the distribution of pushes is drawn anyway"},
+      {"grains.rolling", "their faces resist it"},
+      {"grains.twisting", "their faces resist it"},
       {"local_damping", "damp them by 'mass_damping' or 'grains.deformable.damping_ratio'"}};
   const cdem_case_grains *g = &cases->values.grains;
   bool mesh = g->deformable.shape == SHAPE_mesh;
@@ -269,6 +271,10 @@ static cdem_status check_deformable(const cdem_case *cases, cdem_fault *fault) {
   if (mesh != (g->deformable.file != NULL))
     return cdem_case_fail(cases, "grains.deformable", CDEM_INPUT, fault,
                           "'shape: mesh' and 'file' belong together: give both or none");
+  if (cdem_case_is_triaxial(cases) && cases->values.triaxial.boundary == CDEM_TRIAXIAL_CYLINDER)
+    return cdem_case_fail(cases, "triaxial.boundary", CDEM_INPUT, fault,
+                          "a specimen of deformable grains has a membrane around it; a cylinder "
+                          "with a servo knows rigid grains only");
   return CDEM_OK;
 }
 

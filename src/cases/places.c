@@ -78,12 +78,13 @@ cdem_status cdem_case_places_add_quantity(cdem_case_places *places, const char *
   return CDEM_OK;
 }
 
-cdem_status cdem_case_places_add_opening(cdem_case_places *places, const char *key, int line,
-                                         int column, cdem_fault *fault) {
+cdem_status cdem_case_places_add_opening(cdem_case_places *places, const char *key,
+                                         const cdem_case_opening *at, cdem_fault *fault) {
   CDEM_TRY(cdem_grow(&places->opening, &places->opening_capacity, places->openings + 1,
                      sizeof *places->opening, fault));
   cdem_case_opening *opening = &places->opening[places->openings];
-  *opening = (cdem_case_opening){cdem_copy_text(key, fault), line, column};
+  *opening = *at;
+  opening->key = cdem_copy_text(key, fault);
   if (opening->key == NULL)
     return CDEM_MEMORY;
   places->openings++;

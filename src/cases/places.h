@@ -29,6 +29,7 @@ typedef struct {
 typedef struct {
   char *key; /* of the section: "mesh", "" */
   int line, column;
+  bool braces; /* {key: value}; else a key a line */
 } cdem_case_opening;
 
 struct cdem_case_places {
@@ -56,8 +57,8 @@ const cdem_case_place *cdem_case_places_find(const cdem_case_places *places, con
 /* The same for numbers and maps. */
 cdem_status cdem_case_places_add_quantity(cdem_case_places *places, const char *key,
                                           const cdem_case_quantity *at, cdem_fault *fault);
-cdem_status cdem_case_places_add_opening(cdem_case_places *places, const char *key, int line,
-                                         int column, cdem_fault *fault);
+cdem_status cdem_case_places_add_opening(cdem_case_places *places, const char *key,
+                                         const cdem_case_opening *at, cdem_fault *fault);
 /* NULL: the section has no map in the file. */
 const cdem_case_opening *cdem_case_places_find_opening(const cdem_case_places *places,
                                                        const char *key);

@@ -41,7 +41,7 @@ typedef struct {
 
 typedef struct {
   int64_t contacts;
-  cdem_push *contact; /* [contacts] a < b, or b < 0: boundary; ordered by a, b, then by cluster */
+  cdem_push *contact; /* [contacts] a < b, or b < 0: boundary; ordered by a, b, then by place */
   int64_t single;     /* of those: with one side only; partners not known: b is -1 */
 } cdem_cluster_contacts;
 

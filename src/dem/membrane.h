@@ -97,8 +97,9 @@ typedef struct {
 
 /* Fills what is 0 by dimensionless numbers: d the smallest diameter and `density` that of the
  * grains, p the pressure it is to carry (its largest value):
- *     spacing d/3               penalty 1000 p/d           young * thickness p R/20, thickness
- * d/100 bending p d^3/10          areal density density d/2   damping 0.2, contact damping 0.2 */
+ *     spacing d/3               penalty 1000 p/d           young * thickness p d/10
+ *     thickness d/100           bending p d^3/10           areal density density d/2
+ *     damping 0.2               contact damping 0.2 */
 void cdem_membrane_complete(cdem_membrane_options *options, double pressure, double diameter,
                             double density);
 /* CDEM_INPUT: a size that cannot be; names it. diameter > 0: smallest grain, for the leak bound. */

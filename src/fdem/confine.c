@@ -315,10 +315,24 @@ cdem_status cdem_fdem_confine_save(const cdem_fdem_store *s, cdem_state *state, 
   return cdem_membrane_save(&b->membrane, state, fault);
 }
 
-/* Before the walls are restored: a sheared plate has another function. Rows are made anew, with
- * room enough for ways that are counted on from where they were. Which touches there are follows
- * from the places, but their forces and losses are of the step that led here and of velocities
- * before that step was perhaps changed: those are kept. */
+/* Rows with twice the skin, then those go on from where they were made: they are made anew in the
+ * same step as without the break, so that states are the same, too. */
+static cdem_status find_again(cdem_fdem *fdem, const cdem_state *state, cdem_fault *fault) {
+  struct cdem_fdem_confine *b = fdem->store->confine;
+  double moved = b->moved, skin = b->skin;
+  b->skin = 2.0 * skin;
+  cdem_status status = cdem_fdem_confine_lists(fdem, true, fault);
+  b->skin = skin;
+  CDEM_TRY(status);
+  b->moved = moved;
+  CDEM_TRY(cdem_state_get(state, "fdem/confine_built", CDEM_ARRAY_REAL, 3 * fdem->store->grains,
+                          b->built, fault));
+  return cdem_membrane_restore(&b->membrane, state, fault); /* the lists have marked it anew */
+}
+
+/* Before the walls are restored: a sheared plate has another function. Which touches there are
+ * follows from the places, but their forces and losses are of the step that led here and of
+ * velocities before that step was perhaps changed: those are kept. */
 cdem_status cdem_fdem_confine_restore(cdem_fdem *fdem, const cdem_state *state, cdem_fault *fault) {
   cdem_fdem_store *s = fdem->store;
   struct cdem_fdem_confine *b = s->confine;
@@ -329,13 +343,11 @@ cdem_status cdem_fdem_confine_restore(cdem_fdem *fdem, const cdem_state *state, 
   if (real[REALS - 1] != 0.0)
     cdem_fdem_shear(fdem, b->speed);
   calm(fdem);
-  CDEM_TRY(cdem_fdem_confine_lists(fdem, true, fault));
+  CDEM_TRY(find_again(fdem, state, fault));
   for (int32_t ring = 0; ring < b->membrane.rings; ring++)
     touch_ring(s, b, ring, fdem->step);
   CDEM_TRY(cdem_membrane_restore(&b->membrane, state, fault));
   walk(b, real, false);
-  CDEM_TRY(cdem_state_get(state, "fdem/confine_lost", CDEM_ARRAY_REAL, b->membrane.rings, b->lost,
-                          fault));
-  return cdem_state_get(state, "fdem/confine_built", CDEM_ARRAY_REAL, 3 * s->grains, b->built,
+  return cdem_state_get(state, "fdem/confine_lost", CDEM_ARRAY_REAL, b->membrane.rings, b->lost,
                         fault);
 }

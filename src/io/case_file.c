@@ -232,9 +232,11 @@ static void read_section(cdem_case_reader *r, const cdem_yaml_node *at, const cd
   if (r->status != CDEM_OK || read_without_map(r, at, section, values))
     return;
   const cdem_yaml_node *opening = cdem_yaml_child(&r->yaml, at);
-  if (opening != NULL && opening->origin == 0)
-    r->status = cdem_case_places_add_opening(r->read->places, r->path, opening->line,
-                                             opening->column, r->fault);
+  if (opening != NULL && opening->origin == 0) {
+    const cdem_case_opening place = {
+        .line = opening->line, .column = opening->column, .braces = at->braces};
+    r->status = cdem_case_places_add_opening(r->read->places, r->path, &place, r->fault);
+  }
   const cdem_case_key *material = NULL;
   for (int k = 0; k < section->keys; k++)
     if (section->key[k].kind == CDEM_KEY_MATERIAL)

@@ -48,11 +48,7 @@ static cdem_status insert(editing *e, const cdem_case_opening *opening, const ch
   const char *at = cdem_case_text_at(e->source, opening->line, opening->column);
   CDEM_REQUIRE(at != NULL, e->fault, CDEM_INPUT, "'%s' has no place for the key '%s'", opening->key,
                key);
-  const char *before = at;
-  while (before > e->source && strchr(" \t\r\n", before[-1]) != NULL)
-    before--;
-  bool braces = before > e->source && before[-1] == '{';
-  if (braces)
+  if (opening->braces)
     snprintf(text, sizeof text, "%s: %s, ", key, value);
   else
     snprintf(text, sizeof text, "%s: %s\n%*s", key, value,

@@ -220,6 +220,7 @@ static cdem_status take_event(cdem_yaml *yaml, yaml_place *place, const yaml_eve
     bool map = event->type == YAML_MAPPING_START_EVENT;
     CDEM_TRY(add_node(yaml, map ? CDEM_YAML_MAP : CDEM_YAML_LIST, event, &id, fault));
     yaml->node[id].width = 1;
+    yaml->node[id].braces = map && event->data.mapping_start.style == YAML_FLOW_MAPPING_STYLE;
     attach(yaml, place, id);
     if (place->depth == MAX_DEPTH) {
       cdem_yaml_error(yaml, &yaml->node[id], "is nested deeper than %d levels", MAX_DEPTH);
@@ -315,7 +316,12 @@ void cdem_yaml_release(cdem_yaml *yaml) {
   *yaml = (cdem_yaml){0};
 }
 
+/* Without the mark that some editors put first: no place counts it. */
 static cdem_status read_tree(cdem_yaml *yaml, cdem_fault *fault) {
+  if (strncmp(yaml->source, "\xef\xbb\xbf", 3) == 0) {
+    yaml->bytes -= 3;
+    memmove(yaml->source, yaml->source + 3, (size_t)yaml->bytes + 1);
+  }
   CDEM_TRY(parse(yaml, yaml->source, (size_t)yaml->bytes, fault));
   CDEM_REQUIRE(yaml->nodes > 0, fault, CDEM_INPUT, "cannot read '%s': it is empty", yaml->path);
   return CDEM_OK;

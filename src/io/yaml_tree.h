@@ -26,7 +26,8 @@ typedef struct {
   int line, column, width; /* from 1; characters to underline */
   int32_t child, next;     /* first child, next sibling; -1: none */
   int32_t children;
-  int origin; /* 0: the file; else 1 + the override it came from */
+  bool braces; /* of a map: {key: value} */
+  int origin;  /* 0: the file; else 1 + the override it came from */
 } cdem_yaml_node;
 
 /* A number that was read from a node. */

@@ -39,6 +39,12 @@ static cdem_status elastic(const cdem_run_deformable *d, int m, cdem_material *m
   return CDEM_OK;
 }
 
+static const char *shape_key(const cdem_run_deformable *d, const char *message) {
+  static const char key[] = "grains.deformable.refinement";
+  bool own = strstr(message, "refinement") != NULL && cdem_case_given(&d->run->cases, key);
+  return own ? key : "grains.deformable";
+}
+
 /* One template for each material of grains. */
 static cdem_status make_shapes(cdem_run_deformable *d, const cdem_mesh *mesh, cdem_fault *fault) {
   const cdem_case_deformable *wanted = &cdem_run_deformable_values(d)->grains.deformable;
@@ -61,7 +67,7 @@ static cdem_status make_shapes(cdem_run_deformable *d, const cdem_mesh *mesh, cd
     if (status == CDEM_OK) {
       status = cdem_template_init(&options, false, &d->shape[d->shapes], fault);
       if (status == CDEM_INPUT || status == CDEM_NUMERIC)
-        status = cdem_case_blame(&d->run->cases, "grains.deformable", fault);
+        status = cdem_case_blame(&d->run->cases, shape_key(d, fault->message), fault);
     }
     of[m] = d->shapes;
     d->shapes += status == CDEM_OK;
@@ -89,8 +95,8 @@ static cdem_status check_words(const cdem_run_deformable *d, int entry, const do
   if (!isnan(value[CDEM_LAW_restitution]))
     return cdem_case_fail(cases, cdem_run_key(key, "contacts", entry, "restitution"), CDEM_INPUT,
                           fault,
-                          "nodes of deformable grains have dashpots but no restitution of the "
-                          "grain; give 'damping_ratio'");
+                          "nodes of deformable grains are damped one by one: give "
+                          "'damping_ratio', not 'restitution'");
   if (!isnan(value[CDEM_LAW_shear_damping_ratio]))
     return cdem_case_fail(
         cases, cdem_run_key(key, "contacts", entry, "shear_damping_ratio"), CDEM_INPUT, fault,

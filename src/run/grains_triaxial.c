@@ -72,7 +72,7 @@ static void make_walls(cdem_run_grains *g) {
         (cdem_wall){.name = "side",
                     .shape = CDEM_WALL_CYLINDER,
                     .axis = {0, 0, 1},
-                    .radius = 0.25 * ((g->high[0] - g->low[0]) + (g->high[1] - g->low[1])),
+                    .radius = 0.5 * fmin(g->high[0] - g->low[0], g->high[1] - g->low[1]),
                     .servo_radius = true,
                     .servo_gain = servo_gain,
                     .servo_speed = speed};

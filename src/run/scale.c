@@ -112,6 +112,16 @@ static void multiply(double *value, int64_t count, double factor) {
     value[i] *= factor;
 }
 
+/* The copy must not take the place of the table, either. */
+static cdem_status check_grains(const scaling_job *job, const char *path, cdem_fault *fault) {
+  if (!same_file(path, job->grains))
+    return CDEM_OK;
+  return cdem_case_fail(&job->cases, "grains.file", CDEM_USAGE, fault,
+                        "the scaled table of grains would overwrite '%s'; give the scaled case "
+                        "another name with -o",
+                        path);
+}
+
 static cdem_status scale_grains(const scaling_job *job, cdem_fault *fault) {
   static const cdem_dimension velocity = {1, -1, 0}, rate = {0, -1, 0};
   const cdem_ratios *ratios = &job->scaling.ratios;
@@ -119,13 +129,14 @@ static cdem_status scale_grains(const scaling_job *job, cdem_fault *fault) {
   char *path = cdem_case_file_path(&job->cases, job->cases.values.grains.file, fault);
   if (path == NULL)
     return CDEM_MEMORY;
-  cdem_status status =
-      cdem_read_grains(path, (int)job->cases.values.grains.dimension, &table, fault);
-  free(path);
-  if (status != CDEM_OK) {
-    cdem_case_blame(&job->cases, "grains.file", fault);
-    return status;
+  cdem_status status = check_grains(job, path, fault);
+  if (status == CDEM_OK) {
+    status = cdem_read_grains(path, (int)job->cases.values.grains.dimension, &table, fault);
+    if (status != CDEM_OK)
+      cdem_case_blame(&job->cases, "grains.file", fault);
   }
+  free(path);
+  CDEM_TRY(status);
   cdem_grains *g = &table.grains;
   multiply(g->xyz, 3 * g->grains, cdem_ratio(ratios, CDEM_LENGTH));
   multiply(g->radius, g->grains, cdem_ratio(ratios, CDEM_LENGTH));
@@ -203,9 +214,12 @@ static void write_heading(const scaling_job *job, char text[600]) {
 static cdem_status check_text(const scaling_job *job, cdem_fault *fault) {
   cdem_case again = {0};
   const char *output = job->options->output;
-  CDEM_TRY(cdem_read_case_text(strcmp(output, "-") == 0 ? "scaled case" : output, job->text, &again,
-                               fault));
-  cdem_status status = CDEM_OK;
+  cdem_status status = cdem_read_case_text(strcmp(output, "-") == 0 ? "scaled case" : output,
+                                           job->text, &again, fault);
+  if (status != CDEM_OK) {
+    cdem_fault_prefix(fault, "the scaled case cannot be used");
+    return status;
+  }
   int64_t next = 0;
   for (int64_t i = 0; i < job->list.count && status == CDEM_OK; i++) {
     const cdem_scaled *item = &job->list.item[i];

@@ -127,7 +127,7 @@ void cdem_run_triaxial_membrane(const cdem_run_setup *run, const cdem_run_triaxi
                                 cdem_membrane_options *options) {
   const cdem_case_triaxial *t = &cdem_run_values(run)->triaxial;
   const cdem_case_membrane *from = &t->membrane;
-  *options = (cdem_membrane_options){.radius = 0.25 * ((high[0] - low[0]) + (high[1] - low[1])),
+  *options = (cdem_membrane_options){.radius = 0.5 * fmin(high[0] - low[0], high[1] - low[1]),
                                      .low = low[2],
                                      .high = high[2],
                                      .spacing = or_zero(from->spacing),
@@ -144,6 +144,10 @@ void cdem_run_triaxial_membrane(const cdem_run_setup *run, const cdem_run_triaxi
     options->center[c] = 0.5 * (low[c] + high[c]);
   options->pressure = plan->pressure;
   cdem_membrane_complete(options, t->pressure, plan->sizes.smallest, plan->sizes.density);
+  if (!isnan(from->damping)) /* 0 is a ratio, too */
+    options->damping = from->damping;
+  if (!isnan(from->contact_damping))
+    options->contact_damping = from->contact_damping;
 }
 
 /* ---- stages ---- */
@@ -166,7 +170,7 @@ double cdem_run_triaxial_shear(cdem_run_triaxial *plan, double height, double vo
 void cdem_run_triaxial_columns(cdem_run_triaxial *plan, const cdem_run_specimen *s,
                                cdem_run_row *row) {
   double axial = NAN, volumetric = NAN, ratio = NAN;
-  if (plan->shears) {
+  if (plan->shears && !row->declare) { /* a continued run declares its columns once more */
     axial = log(plan->height / s->height);
     volumetric = log(plan->volume / s->volume);
     plan->contraction = fmax(plan->contraction, volumetric);

@@ -46,7 +46,8 @@ typedef struct {
  * results and curves where those of the same name are not given. */
 cdem_status cdem_run_triaxial_plan(cdem_run_setup *run, const cdem_run_triaxial_sizes *sizes,
                                    cdem_run_triaxial *plan, cdem_fault *fault);
-/* Options of its membrane; low and high: of the box around the cylinder. */
+/* Options of its membrane; low and high: of the box whose cylinder it is, as
+ * wide as its narrower edge. */
 void cdem_run_triaxial_membrane(const cdem_run_setup *run, const cdem_run_triaxial *plan,
                                 const double low[3], const double high[3],
                                 cdem_membrane_options *options);

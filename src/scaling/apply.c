@@ -46,6 +46,11 @@ static cdem_status scale_count(applying *a, const cdem_case_quantity *q, cdem_sc
                           "%.17g grains cannot be coarse-grained by %g: %.3g would be left; take a "
                           "smaller h",
                           q->value, s->ratios.length, q->value / fewer);
+  if (item->value >= INT32_MAX)
+    return cdem_case_fail(a->cases, q->key, CDEM_INPUT, a->fault,
+                          "%.17g grains would become %.3g by h = %g; at most %d can be had: take a "
+                          "larger h",
+                          q->value, item->value, s->ratios.length, INT32_MAX - 1);
   return CDEM_OK;
 }
 
@@ -228,6 +233,19 @@ static cdem_status scale_results(applying *a) {
 
 /* ---- the whole ---- */
 
+/* A triaxial test whose durations are not given has the clock of its grains (run/triaxial.h), which
+ * slows down with them whatever is asked for. */
+static cdem_status check_rate(const applying *a) {
+  const cdem_case_triaxial *t = &a->cases->values.triaxial;
+  if (a->scaling->slow || !cdem_case_is_triaxial(a->cases) ||
+      (!isnan(t->rate) && !isnan(t->consolidation)))
+    return CDEM_OK;
+  return cdem_case_fail(a->cases, "triaxial", CDEM_INPUT, a->fault,
+                        "the durations of this triaxial test follow from the size of its grains; "
+                        "give it 'consolidation' and 'rate' to keep them, or leave --keep-rate "
+                        "out");
+}
+
 /* A window of larger grains wants grains that are made by a rule. */
 static cdem_status check_coarse(const applying *a) {
   const cdem_case_places *places = a->cases->places;
@@ -235,6 +253,7 @@ static cdem_status check_coarse(const applying *a) {
     return cdem_case_fail(a->cases, "grains.file", CDEM_INPUT, a->fault,
                           "grains of a file cannot be coarse-grained: their places and number are "
                           "fixed; give a 'packing', or a file of larger grains");
+  CDEM_TRY(check_rate(a));
   for (int64_t i = 0; i < places->quantities; i++)
     if (places->quantity[i].tag == CDEM_TAG_GRAIN && places->quantity[i].dimension.length == 1 &&
         places->quantity[i].dimension.time == 0 && places->quantity[i].dimension.mass == 0)

@@ -53,7 +53,7 @@ double cdem_scaling_factor(const cdem_scaling *scaling, cdem_dimension dimension
 
 /* What becomes of one number of the case. */
 typedef struct {
-  const char *key;   /* of the case; good as long as the list */
+  const char *key;   /* of the case; good as long as the case */
   char *section;     /* of an added key; NULL else */
   const char *added; /* its name there; NULL: a number that the case gives */
   int64_t quantity;  /* of the case's places; -1: added */

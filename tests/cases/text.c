@@ -101,6 +101,22 @@ static void check_example_of_grains(const cdem_case_key *key) {
   cdem_case_release(&read);
 }
 
+/* A specimen has no end of its own, and its packing is a cylinder. */
+static void check_example_of_a_specimen(const cdem_case_key *key) {
+  char text[2000];
+  snprintf(text, sizeof text,
+           "grains: {dimension: 3, packing: {kind: loose, cylinder: yes, high: [1, 1, 1], radius: "
+           "0.1, fraction: 0.3}, materials: {rock: {density: 1}}}\n"
+           "contacts: [{friction: 0}]\n"
+           "%s: %s\n",
+           key->key, key->example);
+  cdem_fault fault = {0};
+  cdem_case read = {0};
+  if (read_text(text, &read, &fault) != CDEM_OK)
+    fail_msg("%s\n%s", text, fault.message);
+  cdem_case_release(&read);
+}
+
 /* The examples are read by the reader itself: those at the top each in a case of its own. */
 static void examples_can_be_read(void **state) {
   (void)state;
@@ -125,6 +141,10 @@ static void examples_can_be_read(void **state) {
     char text[2000] = "";
     if (is_of_grains(key->key)) {
       check_example_of_grains(key);
+      continue;
+    }
+    if (strcmp(key->key, "triaxial") == 0) {
+      check_example_of_a_specimen(key);
       continue;
     }
     static const char *const needed[][2] = {

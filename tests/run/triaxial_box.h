@@ -1,4 +1,4 @@
-/* A small triaxial test: 83 spheres of 50 mm in a cylinder of 200 x 300 mm. Lengths, stiffness and
+/* A small triaxial test: 78 spheres of 50 mm in a cylinder of 200 x 300 mm. Lengths, stiffness and
  * times for a scale h; what has no dimension stays. */
 #ifndef CDEM_TESTS_RUN_TRIAXIAL_BOX_H
 #define CDEM_TESTS_RUN_TRIAXIAL_BOX_H

@@ -247,6 +247,9 @@ static void defaults_are_written(void **state) {
        "thickness: 0.10000000000000001\nend: 2\nmesh: { file: a.msh, unit: 0.002 }\n" ROCK},
       {"end: 1\nmesh: {shape: quad4, count: [2, 2], size: [1 m, \"50 cm\"]}\n" ROCK,
        "thickness: 2\nend: 2\nmesh: {shape: quad4, count: [2, 2], size: [2, 1]}\n" ROCK},
+      {"\xef\xbb\xbf"
+       "end: 1\nmesh: { # of {mm}\n  file: a.msh}\n" ROCK,
+       "thickness: 2\nend: 2\nmesh: { # of {mm}\n  unit: 2, file: a.msh}\n" ROCK},
   };
   for (size_t i = 0; i < sizeof pair / sizeof *pair; i++) {
     char *text = scaled_text(pair[i][0], cdem_scaling_exact(cdem_ratios_of_size(2.0)));
@@ -292,6 +295,11 @@ static void check_refused(const char *text, cdem_scaling scaling, const cdem_sca
   cdem_case_release(&read);
 }
 
+#define TRIAXIAL                                                                                   \
+  "grains:\n  dimension: 3\n  packing: {kind: loose, cylinder: yes, high: [1, 1, 1], radius: "     \
+  "0.1, count: 80}\n  materials: {sand: {density: 2600}}\ncontacts: [{normal_stiffness: 1e6}]\n"   \
+  "triaxial: {pressure: 1, "
+
 static const char *strange_unit(void *context, const char *column) {
   (void)context;
   return strcmp(column, "odd") == 0 ? "furlong" : strcmp(column, "mass") == 0 ? "kg" : "N";
@@ -305,6 +313,13 @@ static void what_cannot_scale_is_refused(void **state) {
                 "this case has no size of grains");
   check_refused(SAND, cdem_scaling_coarse(8.0, 3), NULL,
                 "80 grains cannot be coarse-grained by 8: 0.156 would be left");
+  check_refused(SAND, cdem_scaling_coarse(1e-3, 3), NULL,
+                "80 grains would become 8e+10 by h = 0.001; at most 2147483646 can be had");
+  cdem_scaling quick = cdem_scaling_coarse(2.0, 3);
+  quick.slow = false;
+  check_refused(TRIAXIAL "rate: 1}\n", quick, NULL, "follow from the size of its grains; give it");
+  check_refused(TRIAXIAL "consolidation: 1}\n", quick, NULL, "follow from the size of its grains");
+  free(scaled_text(TRIAXIAL "rate: 1, consolidation: 1}\n", quick));
   check_refused("end: 1\ngrains: {dimension: 2, file: g.csv, materials: {s: {density: "
                 "1}}}\ncontacts: [{friction: 0}]\n",
                 cdem_scaling_coarse(2.0, 2), NULL, "case.yaml:2:30: grains of a file cannot be");

@@ -58,6 +58,20 @@ static void a_table_of_grains_goes_along(void **state) {
   assert_int_not_equal(access(in_scratch("bad-grains.csv"), F_OK), 0);
 }
 
+static void a_table_of_grains_is_not_overwritten(void **state) {
+  (void)state;
+  static const char grains[] = "x,y,radius\n0,0,0.5\n1,0,0.5\n";
+  cdem_fault fault = {0};
+  write_file("b-grains.csv", grains);
+  write_file("a.yaml", "end: 1 ms\n"
+                       "grains: {dimension: 2, file: b-grains.csv, materials: {s: {density: 1}}}\n"
+                       "contacts: [{normal_stiffness: 1, restitution: 0.5}]\n");
+  check_fails(scale("a.yaml", "b.yaml", &fault), CDEM_USAGE,
+              "the scaled table of grains would overwrite");
+  check_content("b-grains.csv", grains);
+  assert_int_not_equal(access(in_scratch("b.yaml"), F_OK), 0);
+}
+
 static void lack_of_memory(void **state) {
   (void)state;
   int failures = 0;
@@ -81,6 +95,7 @@ static void lack_of_memory(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_table_of_grains_goes_along),
+      cmocka_unit_test(a_table_of_grains_is_not_overwritten),
       cmocka_unit_test(lack_of_memory),
   };
   return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
