@@ -47,7 +47,7 @@ static void a_broken_test_goes_on_to_the_same_bits(void **state) {
 static void what_nodes_cannot_do_is_refused(void **state) {
   (void)state;
   write_specimen("restitution.yaml", "restitution: 0.5");
-  check_bad("restitution.yaml", "title=x", "have dashpots but no restitution");
+  check_bad("restitution.yaml", "title=x", "damped one by one");
   write_specimen("shear.yaml", "damping_ratio: 0.2, shear_damping_ratio: 0.5");
   check_bad("shear.yaml", "title=x", "one 'damping_ratio' for both directions");
   write_specimen("ratio.yaml", "damping_ratio: 0.2, shear_ratio: 0");
