@@ -81,6 +81,12 @@ static cdem_status transpose(const cdem_fdem_store *s, struct cdem_fdem_confine 
   return CDEM_OK;
 }
 
+/* From the axis. */
+static double distance(const cdem_membrane *m, const double x[3]) {
+  double d[2] = {x[0] - m->options.center[0], x[1] - m->options.center[1]};
+  return sqrt(d[0] * d[0] + d[1] * d[1]);
+}
+
 /* How far out the membrane is where it stands before a centre: at the node that comes nearest to it
  * when all go along their radii to its distance from the axis. (The nearest one in space may be in
  * a gap beside a grain and deeper than its centre.) */
@@ -89,7 +95,7 @@ static double room_before(const cdem_membrane *m, const double center[3], double
   double least = INFINITY, room = INFINITY;
   for (int32_t i = 0; i < m->nodes; i++) {
     const double *x = m->x + 3 * (int64_t)i;
-    double far = sqrt((x[0] - axis[0]) * (x[0] - axis[0]) + (x[1] - axis[1]) * (x[1] - axis[1]));
+    double far = distance(m, x);
     double part = far > 0.0 ? out / far : 0.0, d[3] = {0.0, 0.0, x[2] - center[2]};
     for (int c = 0; c < 2; c++)
       d[c] = part * (x[c] - axis[c]) - (center[c] - axis[c]);
@@ -104,10 +110,13 @@ static double room_before(const cdem_membrane *m, const double center[3], double
 static cdem_status check_inside(const cdem_fdem *fdem, cdem_fault *fault) {
   const cdem_fdem_store *s = fdem->store;
   const cdem_membrane *m = &s->confine->membrane;
+  double least = INFINITY;
+  for (int32_t i = 0; i < m->nodes; i++)
+    least = fmin(least, distance(m, m->x + 3 * (int64_t)i));
   for (int64_t g = 0; g < s->grains; g++) {
-    const double *center = s->center + 3 * g, *axis = m->options.center;
-    double out = hypot(center[0] - axis[0], center[1] - axis[1]);
-    CDEM_REQUIRE(out <= room_before(m, center, out), fault, CDEM_NUMERIC,
+    const double *center = s->center + 3 * g;
+    double out = distance(m, center);
+    CDEM_REQUIRE(out <= least || out <= room_before(m, center, out), fault, CDEM_NUMERIC,
                  "grain %lld has left the specimen through the membrane at t = %.6g s, at (%.4g, "
                  "%.4g, %.4g m); take a finer membrane or a larger `penalty` of it",
                  (long long)g, fdem->time, center[0], center[1], center[2]);

@@ -5,8 +5,6 @@
 
 #include "mesh/mesh.h"
 
-enum { CDEM_ICOSPHERE_MOST = 4 };
-
 /* Tetrahedra of the unit ball: 20 * 4^refinement faces, max(1, 2^(refinement - 1)) shells; the
  * innermost consists of tetrahedra to the centre, the others of prisms cut in three. With `second`
  * their edges have mid nodes (tet10), those between two corners at one distance from the centre at

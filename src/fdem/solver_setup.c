@@ -8,6 +8,21 @@ static const double unit_ball = 4.18879020478639098;
 
 /* ---- checks ---- */
 
+static cdem_status check_motion(const cdem_fdem_grains *grains, int64_t g, cdem_fault *fault) {
+  double speed = grains->velocity != NULL ? cdem_norm3(grains->velocity + 3 * g) : 0.0;
+  double spin = grains->spin != NULL ? cdem_norm3(grains->spin + 3 * g) : 0.0, turn = 1.0;
+  if (grains->orientation != NULL) {
+    const double *q = grains->orientation + 4 * g;
+    turn = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+  }
+  CDEM_REQUIRE(!isnan(speed) && !isnan(spin), fault, CDEM_INPUT,
+               "grain %lld starts with a velocity or a spin that is no number", (long long)g);
+  CDEM_REQUIRE(turn > 0.0 && isfinite(turn), fault, CDEM_INPUT,
+               "grain %lld has a quaternion of square %g; it must be of unit length", (long long)g,
+               turn);
+  return CDEM_OK;
+}
+
 static cdem_status check_grain(const cdem_fdem_options *o, int64_t g, cdem_fault *fault) {
   const cdem_fdem_grains *grains = &o->grains;
   int32_t shape = grains->shape != NULL ? grains->shape[g] : 0;
@@ -21,7 +36,7 @@ static cdem_status check_grain(const cdem_fdem_options *o, int64_t g, cdem_fault
                "grain %lld has the shape %d of %d", (long long)g, shape, o->shapes);
   CDEM_REQUIRE(material >= 0 && material < o->materials && o->density[material] > 0.0, fault,
                CDEM_INPUT, "grain %lld is of a material without density", (long long)g);
-  return CDEM_OK;
+  return check_motion(grains, g, fault);
 }
 
 static cdem_status check_law(const cdem_fdem_contact_law *law, cdem_fault *fault) {
@@ -47,6 +62,9 @@ cdem_status cdem_fdem_check(const cdem_fdem_options *o, cdem_fault *fault) {
     CDEM_REQUIRE(o->wall[w].shape != CDEM_WALL_MESH, fault, CDEM_INPUT,
                  "wall '%s' is a mesh; deformable grains know planes, plates and cylinders",
                  o->wall[w].name);
+    CDEM_REQUIRE(o->wall[w].material < o->materials, fault, CDEM_INPUT,
+                 "wall '%s' is of material %d of %d", cdem_wall_name(o->wall + w),
+                 o->wall[w].material, o->materials);
   }
   CDEM_REQUIRE(o->mass_damping >= 0.0 && o->damping_ratio >= 0.0, fault, CDEM_INPUT,
                "mass damping %g 1/s and damping ratio %g of grains must not be negative",

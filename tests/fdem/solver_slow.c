@@ -294,6 +294,13 @@ static void test_errors(void **state) {
   check_fails(cdem_fdem_init(&s.options, &fdem, &fault), CDEM_INPUT,
               "grain 0 has the radius -1 m; it must be positive");
   s.radius[0] = 1.0;
+  s.orientation[0] = 0.0;
+  check_fails(cdem_fdem_init(&s.options, &fdem, &fault), CDEM_INPUT, "a quaternion of square 0");
+  s.orientation[0] = 1.0;
+  scene_floor(&s, -2.0, 0.0, 1.0)->material = 1;
+  check_fails(cdem_fdem_init(&s.options, &fdem, &fault), CDEM_INPUT,
+              "wall 'floor' is of material 1 of 1");
+  s.options.walls = 0;
   s.options.step = 1.0;
   check_fails(cdem_fdem_init(&s.options, &fdem, &fault), CDEM_INPUT, "the step 1 s is unstable");
   s.options.step = 0.0;
