@@ -92,6 +92,20 @@ static void set_reaches(cdem_fdem_contacts *contacts, const cdem_contact_view *v
   }
 }
 
+/* Skins find the nearest triangle of shapes that have changed by less than their margin. */
+static cdem_status check_shapes(const cdem_fdem_contacts *contacts, const cdem_contact_view *view,
+                                cdem_fault *fault) {
+  for (int64_t g = 0; g < contacts->grains; g++) {
+    const cdem_skin *skin = view->surface[g];
+    CDEM_REQUIRE(contacts->reach[g] <= view->scale[g] * (skin->reach + skin->margin), fault,
+                 CDEM_NUMERIC,
+                 "grain %" PRId64 " has grown from %g to %g radii: its strains are not small; take "
+                 "stiffer grains, a larger penalty or smaller loads",
+                 g, skin->reach, contacts->reach[g] / view->scale[g]);
+  }
+  return CDEM_OK;
+}
+
 static cdem_status make_room(cdem_fdem_contacts *contacts, cdem_fault *fault) {
   const int64_t *row = contacts->list.row;
   int64_t most = 1;
@@ -107,6 +121,7 @@ static cdem_status make_room(cdem_fdem_contacts *contacts, cdem_fault *fault) {
 cdem_status cdem_contacts_reach(cdem_fdem_contacts *contacts, const cdem_contact_view *view,
                                 cdem_fault *fault) {
   set_reaches(contacts, view);
+  CDEM_TRY(check_shapes(contacts, view, fault));
   CDEM_TRY(cdem_contact_neighbours_update(&contacts->list, view->center, contacts->reach, fault));
   return make_room(contacts, fault);
 }
