@@ -12,7 +12,9 @@
 #
 #     h          the law's stiffness as in E1 (B1): "without the rule"; E1 is h = 1
 #     s          scaled exactly by `cdem scale --coarse-grain`
-#     L-...      law linear in place of penalty, in a rigid cylinder in place of the membrane
+#     D-...      grains that deform, meshed as the source's (80 ten-node tetrahedra); D-E1 and D-E2 take
+#                hours and are made only when named
+#     L-...      law linear in place of penalty, in a rigid smooth cylinder between smooth plates
 set -eu
 [ $# -ge 1 ] || { echo "usage: $0 OUTDIR [NAME ...]" >&2; exit 2; }
 mkdir -p "$1/cases"
@@ -55,8 +57,8 @@ times_of() { # RATE_FACTOR
 make() { # NAME
   name=$1 rate=1 seed=1 law=penalty
   if [ -s "$out/$name/summary.json" ]; then return; fi
-  plain=${name#L-}
-  [ "$plain" = "$name" ] || law=linear
+  plain=${name#[LD]-}
+  case $name in L-*) law=linear ;; D-*) law=deformable ;; esac
   case $plain in
     *-half) rate=0.5 ;;
     *-double) rate=2 ;;
@@ -76,11 +78,13 @@ make() { # NAME
   # Numbers of E1 and B1, by the rule those of the base: penalty stiffness over h, stiffness times h.
   case $plain in E*) most=4 ;; *) most=2 ;; esac
   [ -z "$rule" ] || most=1
-  if [ $law = penalty ]; then
+  if [ $law != linear ]; then
     set -- "$@" --set "contacts[0].penalty_stiffness=$(awk "BEGIN { print 1.8e11 / $most }") N/m3"
   else
-    set -- "$@" --set grains.law=linear --set triaxial.boundary=cylinder \
-      --set "contacts=[{normal_stiffness: $(awk "BEGIN { print 1.1e6 * $most }") N/m, shear_ratio: 1, friction: 0.3, damping_ratio: 0.2}]"
+    numbers="normal_stiffness: $(awk "BEGIN { print 1.1e6 * $most }") N/m, shear_ratio: 1, damping_ratio: 0.2"
+    set -- "$@" --set grains.law=linear --set triaxial.boundary=cylinder --set triaxial.material=smooth \
+      --set 'grains.materials={rock: {density: 2650 kg/m3}, smooth: {}}' \
+      --set "contacts=[{between: [rock, smooth], friction: 0, $numbers}, {friction: 0.3, $numbers}]"
   fi
   "$cdem" scale -q "$base" --coarse-grain --h $size $rule --set results='{}' "$@" -o "$out/cases/$name.yaml"
   echo "$name"
@@ -88,11 +92,18 @@ make() { # NAME
   if [ -s "$out/$name/checkpoint.h5" ]; then
     "$cdem" run -q --no-frames --resume "$out/$name"
   else
-    "$cdem" run -q --no-frames "$out/cases/$name.yaml" -o "$out/$name" --set safety=0.6 \
+    if [ $law = deformable ]; then # pushes and pictures are theirs without being asked
+      set -- --set safety=0.8 --set 'grains.deformable={shape: icosphere, refinement: 1}' \
+        --set 'grains.materials={rock: {density: 2650 kg/m3, young: 40 GPa, poisson: 0.2}}'
+    else
+      set -- --set safety=0.6 --set 'grains.pictures=[pushes]' \
+        --set 'probes={mean_push: {quantity: mean_push}, boundary_push: {quantity: boundary_push}, anisotropy: {quantity: anisotropy}, mechanical: {quantity: mechanical_coordination}}'
+    fi
+    "$cdem" run -q --no-frames "$out/cases/$name.yaml" -o "$out/$name" \
       --set grains.packing.count=$count --set grains.packing.seed=$seed \
       --set triaxial.inertial_number="$(awk "BEGIN { print $inertial * $rate }")" \
-      --set 'grains.pictures=[pushes]' --set "grains.picture_times=[$(times_of $rate)]" \
-      --set 'probes={mean_push: {quantity: mean_push}, boundary_push: {quantity: boundary_push}, anisotropy: {quantity: anisotropy}, mechanical: {quantity: mechanical_coordination}}'
+      --set "grains.picture_times=[$(times_of $rate)]" \
+      "$@"
   fi || [ $? -eq 1 ]
   times >"$out/cases/$name.after" # children's user time: seconds of one processor
 }
@@ -104,8 +115,9 @@ fi
 
 all='E1 E2 E3 E4 E2s E3s E4s B1 B2 B3 B2s B3s'
 seeds='E2-2 E2s-2 E3-2 E3s-2 E3-3 E3s-3 E4-2 E4s-2 E4-3 E4s-3 E4-4 E4s-4 E4-5 E4s-5 B3-2 B3s-2 B3-3 B3s-3'
+deformable='D-E3 D-E4 D-E3s D-E4s'
 linear='L-E1 L-E2 L-E3 L-E4 L-E2s L-E3s L-E4s L-E3-2 L-E3s-2 L-E4-2 L-E4s-2 L-E4-3 L-E4s-3'
-for name in $all $seeds $linear E4s-half E4s-double E2s-half E2s-double; do
+for name in $all $seeds $linear $deformable E4s-half E4s-double E2s-half E2s-double; do
   [ -n "${DRAW_ONLY:-}" ] || make $name
 done
 
@@ -114,7 +126,7 @@ done
 # One line: name, solid fraction at the start of the shear, peak of the stress ratio, axial strain
 # there, mean ratio of the last tenth of the strain, largest contraction, volumetric strain at the
 # end, mean push between grains, on the plates, of both at the peak, N; largest inertial number; time
-# of the peak, s.
+# of the peak, s; stress ratio at the axial strain 0.01, how stiff it begins.
 numbers() { # NAME
   [ -s "$out/$1/summary.json" ] || return 0
   awk -F, -v name="$1" '
@@ -124,10 +136,12 @@ numbers() { # NAME
       e[n] = $at["axial_strain"]; q[n] = $at["stress_ratio"]; v = $at["volumetric_strain"]
       if (n == 0) solid = $at["solid_fraction"]
       if (v > most) most = v
+      if (e[n] <= 0.01) early = q[n]
       if ($at["inertial_number"] > inertial) inertial = $at["inertial_number"]
       if (q[n] > peak) {
         peak = q[n]; place = e[n]; time = $at["time"]
-        push = $at["probe.mean_push"]; plates = $at["probe.boundary_push"]; contacts = $at["contacts"]
+        push = $at["mean_push" in at ? "mean_push" : "probe.mean_push"]
+        plates = $at["boundary_push" in at ? "boundary_push" : "probe.boundary_push"]; contacts = $at["contacts"]
         top = $at["wall.top.fz"]; bottom = $at["wall.bottom.fz"]
       }
       n++
@@ -136,14 +150,14 @@ numbers() { # NAME
       for (i = 0; i < n; i++) if (e[i] > 0.9 * e[n - 1]) { sum += q[i]; count++ }
       on_plates = ((top < 0 ? -top : top) + (bottom < 0 ? -bottom : bottom)) / plates
       both = (push * (contacts - on_plates) + plates * on_plates) / contacts
-      printf "%s %.4f %.3f %.4f %.3f %.4f %.4f %.1f %.1f %.1f %.2e %.6g\n", name, solid, peak, place,
-        sum / count, most, v, push, plates, both, inertial, time
+      printf "%s %.4f %.3f %.4f %.3f %.4f %.4f %.1f %.1f %.1f %.2e %.6g %.3f\n", name, solid, peak, place,
+        sum / count, most, v, push, plates, both, inertial, time, early
     }' "$out/$1/history.csv"
 }
 
 {
-  echo '# run solid peak strain_at_peak late_ratio contraction volume_at_end push push_on_plates push_of_both inertial time'
-  for name in $all $seeds $linear E4s-half E4s-double E2s-half E2s-double; do numbers $name; done
+  echo '# run solid peak strain_at_peak late_ratio contraction volume_at_end push push_on_plates push_of_both inertial time ratio_at_0.01'
+  for name in $all $seeds $linear $deformable E4s-half E4s-double E2s-half E2s-double; do numbers $name; done
 } >"$out/runs.txt"
 
 # ---- table 5: ratios of the mean push at the peak, means over seeds ----
@@ -159,15 +173,16 @@ table() { # PREFIX: "" penalty, L- linear
     {
       run = $1
       if (prefix != "" && sub("^" prefix, "", run) == 0) next
-      if (run ~ /^L-/ || run ~ /-(half|double)$/) next
+      if (run ~ /^[LD]-/ || run ~ /-(half|double)$/) next
       sub(/-[0-9]+$/, "", run)
       n[run]++; push[run] += $8; square[run] += $8 * $8; both[run] += $10
       peak[run] += $3; peaks[run] += $3 * $3; place[run] += $4; volume[run] += $7; solid[run] += $2; late[run] += $5
+      early[run] += $13; most[run] += $6
     }
     function scatter(sum, squares, n, v) { v = n > 1 ? (squares - sum * sum / n) / (n - 1) : 0; return v > 0 ? sqrt(v) : 0 }
     END {
-      printf "%-5s %5s %7s %7s %7s %9s %7s %8s %9s %8s %9s %7s %8s %7s %6s\n", "run", "seeds", "solid", "peak", "+-", "strain", "late",
-        "volume", "push,N", "+-", "printed", "ratio", "printed", "diff,%", "15 %"
+      printf "%-4s %5s %6s %7s %6s %6s %7s %6s %8s %8s %8s %7s %8s %6s %8s %7s %5s\n", "run", "seeds", "solid", "at 0.01", "peak", "+-",
+        "strain", "late", "contract", "volume", "push, N", "+-", "printed", "ratio", "printed", "diff, %", "15 %"
       for (k = 1; k <= 12; k++) {
         r = name[k]
         if (!n[r]) continue
@@ -175,17 +190,20 @@ table() { # PREFIX: "" penalty, L- linear
         one = substr(r, 1, 1) "1"
         if (n[one]) ratio = m / (push[one] / n[one]); else ratio = 0
         diff = ratio > 0 ? 100 * (ratio / printed[k] - 1) : 0
-        printf "%-5s %5d %7.4f %7.3f %7.3f %9.4f %7.3f %8.4f %9.1f %8.1f %9.2f %7.2f %8.2f %7.1f %6s\n", r, n[r], solid[r] / n[r], peak[r] / n[r],
-          scatter(peak[r], peaks[r], n[r]), place[r] / n[r], late[r] / n[r], volume[r] / n[r], m, scatter(push[r], square[r], n[r]),
-          newton[k], ratio, printed[k], diff, (diff < 15 && diff > -15 ? "yes" : "no")
+        printf "%-4s %5d %6.4f %7.3f %6.3f %6.3f %7.4f %6.3f %8.4f %8.4f %8.1f %7.1f %8.2f %6.2f %8.2f %7.1f %5s\n", r, n[r], solid[r] / n[r],
+          early[r] / n[r], peak[r] / n[r], scatter(peak[r], peaks[r], n[r]), place[r] / n[r], late[r] / n[r], most[r] / n[r],
+          volume[r] / n[r], m, scatter(push[r], square[r], n[r]), newton[k], ratio, printed[k], diff,
+          (n[one] == 0 ? "" : diff < 15 && diff > -15 ? "yes" : "no")
       }
     }' "$out/runs.txt"
 }
 {
   echo '# law penalty, membrane'
   table ''
-  echo '# law linear, rigid cylinder'
+  echo '# law linear, rigid smooth cylinder'
   table L-
+  echo '# grains that deform, membrane'
+  table D-
 } >"$out/table5.txt"
 
 # ---- figures ----
@@ -198,13 +216,13 @@ column() { # NAME COLUMN: strain and column, to a file
 }
 
 style() { # RUN: colour by h, dashes with the rule, thin further seeds
-  case ${1#L-} in
+  case ${1#[LD]-} in
     ?1*) colour='#000000' ;;
     E2* | B2*) colour='#1f77b4' ;;
     E3* | B3*) colour='#2ca02c' ;;
     *) colour='#d62728' ;;
   esac
-  case ${1#L-} in ??s*) dash=2 ;; *) dash=1 ;; esac
+  case ${1#[LD]-} in ??s*) dash=2 ;; *) dash=1 ;; esac
   case $1 in *-[0-9]) echo "lc rgb '$colour' dt $dash lw 0.7 notitle" ;; *) echo "lc rgb '$colour' dt $dash lw 2.2 title '$1'" ;; esac
 }
 
@@ -269,8 +287,10 @@ lines fig07 stress_ratio 'Figure 7: two sizes' "$ratio" $binary
 lines fig08 volumetric_strain 'Figure 8: two sizes' "$volume" $binary
 forces fig09 'Figure 9: equal spheres, at the peak' $equal
 forces fig10 'Figure 10: two sizes, at the peak' $binary
-lines linear-ratio stress_ratio 'Law linear, rigid cylinder' "$ratio" L-E1 L-E2 L-E3 L-E4 L-E2s L-E3s L-E4s
-lines linear-volume volumetric_strain 'Law linear, rigid cylinder' "$volume" L-E1 L-E2 L-E3 L-E4 L-E2s L-E3s L-E4s
+lines linear-ratio stress_ratio 'Law linear, rigid smooth cylinder' "$ratio" L-E1 L-E2 L-E3 L-E4 L-E2s L-E3s L-E4s
+lines linear-volume volumetric_strain 'Law linear, rigid smooth cylinder' "$volume" L-E1 L-E2 L-E3 L-E4 L-E2s L-E3s L-E4s
+lines deformable-ratio stress_ratio 'Grains that deform' "$ratio" D-E1 D-E2 D-E3 D-E4 D-E2s D-E3s D-E4s
+lines deformable-volume volumetric_strain 'Grains that deform' "$volume" D-E1 D-E2 D-E3 D-E4 D-E2s D-E3s D-E4s
 lines scatter-ratio stress_ratio 'Specimens of 60 mm: seeds' "$ratio" E4 E4-2 E4-3 E4-4 E4-5 E4s E4s-2 E4s-3 E4s-4 E4s-5
 
 # ---- figure 11: time of one processor ----
