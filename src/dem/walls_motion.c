@@ -11,6 +11,7 @@
  * To reach the wanted force it must go (F - wanted)/K; it goes the part `gain` of that in a step.
  * Without contacts F = 0, and it goes the same way, against the sign of the wanted force, at full
  * speed. */
+#include "base/quaternion.h"
 #include "dem/walls_store.h"
 
 static bool moves(const cdem_series *f) {
@@ -87,31 +88,9 @@ void cdem_wall_motion_init(cdem_wall_body *body) {
 
 /* out = exp(angle * direction) q, direction a unit vector. */
 static void turn_by(const double direction[3], double angle, const double q[4], double out[4]) {
-  double a = cos(0.5 * angle), s = sin(0.5 * angle);
-  double b[3] = {s * direction[0], s * direction[1], s * direction[2]}, cross[3];
-  cdem_cross3(b, q + 1, cross);
-  out[0] = a * q[0] - cdem_dot3(b, q + 1);
-  for (int c = 0; c < 3; c++)
-    out[1 + c] = a * q[1 + c] + q[0] * b[c] + cross[c];
-}
-
-static void matrix_of(const double q[4], double m[9]) {
-  double w = q[0], x = q[1], y = q[2], z = q[3];
-  m[0] = 1.0 - 2.0 * (y * y + z * z);
-  m[1] = 2.0 * (x * y - w * z);
-  m[2] = 2.0 * (x * z + w * y);
-  m[3] = 2.0 * (x * y + w * z);
-  m[4] = 1.0 - 2.0 * (x * x + z * z);
-  m[5] = 2.0 * (y * z - w * x);
-  m[6] = 2.0 * (x * z - w * y);
-  m[7] = 2.0 * (y * z + w * x);
-  m[8] = 1.0 - 2.0 * (x * x + y * y);
-}
-
-static void normalise(double q[4]) {
-  double norm = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  for (int k = 0; k < 4; k++)
-    q[k] /= norm;
+  double s = sin(0.5 * angle);
+  const double by[4] = {cos(0.5 * angle), s * direction[0], s * direction[1], s * direction[2]};
+  cdem_quaternion_product(by, q, out);
 }
 
 static void turn(cdem_wall_body *body, double time, double next) {
@@ -131,14 +110,14 @@ static void turn(cdem_wall_body *body, double time, double next) {
     if (cdem_wall_unit(angle))
       turn_by(angle, size, old, body->quaternion);
   }
-  normalise(body->quaternion);
+  cdem_quaternion_normalise(body->quaternion);
 }
 
 /* ---- pose ---- */
 
 void cdem_wall_place(cdem_wall_body *body, double time) {
   const cdem_wall *wall = &body->wall;
-  matrix_of(body->quaternion, body->turn);
+  cdem_quaternion_matrix(body->quaternion, body->turn);
   cdem_wall_turned(body->turn, wall->normal, body->normal);
   cdem_wall_turned(body->turn, wall->axis, body->axis);
   cdem_cross3(body->normal, body->axis, body->third);

@@ -12,6 +12,7 @@
  * Rigid motion: v by its force, angular momentum L by its moment; the spin that turns the frame is
  * that of L at the orientation in the middle of the step.
  */
+#include "base/quaternion.h"
 #include "fdem/solver_store.h"
 
 #include <cblas.h>
@@ -19,33 +20,12 @@
 
 /* ---- rotations ---- */
 
-void cdem_fdem_turn_of(const double q[4], double m[9]) {
-  double w = q[0], x = q[1], y = q[2], z = q[3];
-  m[0] = 1.0 - 2.0 * (y * y + z * z);
-  m[1] = 2.0 * (x * y - w * z);
-  m[2] = 2.0 * (x * z + w * y);
-  m[3] = 2.0 * (x * y + w * z);
-  m[4] = 1.0 - 2.0 * (x * x + z * z);
-  m[5] = 2.0 * (y * z - w * x);
-  m[6] = 2.0 * (x * z - w * y);
-  m[7] = 2.0 * (y * z + w * x);
-  m[8] = 1.0 - 2.0 * (x * x + y * y);
-}
-
 /* out = exp(angle) q, the rotation by the vector `angle` after q; of unit length again. */
 static void turn_by(const double angle[3], const double q[4], double out[4]) {
-  double size = cdem_norm3(angle), b[3], cross[3];
-  double part = size > 0.0 ? sin(0.5 * size) / size : 0.5;
-  for (int c = 0; c < 3; c++)
-    b[c] = part * angle[c];
-  double a = cos(0.5 * size);
-  cdem_cross3(b, q + 1, cross);
-  out[0] = a * q[0] - cdem_dot3(b, q + 1);
-  for (int c = 0; c < 3; c++)
-    out[1 + c] = a * q[1 + c] + q[0] * b[c] + cross[c];
-  double norm = sqrt(out[0] * out[0] + cdem_dot3(out + 1, out + 1));
-  for (int c = 0; c < 4; c++)
-    out[c] /= norm;
+  double size = cdem_norm3(angle), part = size > 0.0 ? sin(0.5 * size) / size : 0.5;
+  const double by[4] = {cos(0.5 * size), part * angle[0], part * angle[1], part * angle[2]};
+  cdem_quaternion_product(by, q, out);
+  cdem_quaternion_normalise(out);
 }
 
 static void times(const double m[9], const double v[3], double out[3]) {
@@ -75,12 +55,12 @@ static void rotate(cdem_fdem_store *s, int64_t g, double step) {
   for (int c = 0; c < 3; c++)
     angle[c] = 0.5 * step * spin[c];
   turn_by(angle, old, half);
-  cdem_fdem_turn_of(half, turn);
+  cdem_quaternion_matrix(half, turn);
   cdem_fdem_spin_of(s, g, turn, s->momentum + 3 * g, spin);
   for (int c = 0; c < 3; c++)
     angle[c] = step * spin[c];
   turn_by(angle, old, s->quaternion + 4 * g);
-  cdem_fdem_turn_of(s->quaternion + 4 * g, s->turn + 9 * g);
+  cdem_quaternion_matrix(s->quaternion + 4 * g, s->turn + 9 * g);
 }
 
 /* Force and moment about the centre of all that touches the grain. */

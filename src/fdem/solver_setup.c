@@ -1,4 +1,5 @@
 /* From the options to everything that never changes: checks, masses, blocks. */
+#include "base/quaternion.h"
 #include "fdem/solver_store.h"
 
 #include <stdlib.h>
@@ -183,7 +184,7 @@ static void start_grain(cdem_fdem_store *s, int64_t g) {
   for (int k = 0; k < 4; k++)
     q[k] /= sqrt(norm);
   double *turn = s->turn + 9 * g;
-  cdem_fdem_turn_of(q, turn);
+  cdem_quaternion_matrix(q, turn);
   for (int c = 0; c < 3; c++) {
     s->start[3 * g + c] = s->center[3 * g + c] = grains->xyz[3 * g + c];
     s->velocity[3 * g + c] = grains->velocity != NULL ? grains->velocity[3 * g + c] : 0.0;

@@ -84,7 +84,6 @@ void cdem_fdem_move_block(cdem_fdem_store *s, int32_t block, double step, cdem_f
 void cdem_fdem_loads_of(const cdem_fdem_store *s, int32_t block, cdem_fdem_work *work);
 /* Places of a block from centres, quaternions and amplitudes. */
 void cdem_fdem_place_block(cdem_fdem_store *s, int32_t block, cdem_fdem_work *work);
-void cdem_fdem_turn_of(const double quaternion[4], double turn[9]);
 /* Spin from angular momentum at an orientation. */
 void cdem_fdem_spin_of(const cdem_fdem_store *s, int64_t grain, const double turn[9],
                        const double momentum[3], double spin[3]);

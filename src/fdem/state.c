@@ -1,4 +1,5 @@
 /* Checkpoints: what changes while the grains move. */
+#include "base/quaternion.h"
 #include "fdem/confine.h"
 
 #include <stdlib.h>
@@ -104,7 +105,7 @@ cdem_status cdem_fdem_restore(cdem_fdem *fdem, const cdem_state *state, cdem_fau
   fdem->steps = count[0];
   s->base_steps = count[1];
   for (int64_t g = 0; g < s->grains; g++)
-    cdem_fdem_turn_of(s->quaternion + 4 * g, s->turn + 9 * g);
+    cdem_quaternion_matrix(s->quaternion + 4 * g, s->turn + 9 * g);
   for (int32_t b = 0; b < s->blocks; b++)
     cdem_fdem_place_block(s, b, s->work);
   /* Placing took `now` for `before`. */

@@ -75,6 +75,8 @@ cdem_status cdem_output_write(cdem_output *output, const void *data, size_t byte
 cdem_status cdem_output_commit(cdem_output **output, cdem_fault *fault);
 /* Drops everything written; safe on NULL and after commit. */
 void cdem_output_discard(cdem_output **output);
+/* A whole text as a file: all of it or nothing. */
+cdem_status cdem_write_text(const char *path, const char *text, int64_t length, cdem_fault *fault);
 
 /* ---- springs out: one writer a format (springs_csv.c, springs_hdf5.c, springs_vtk.c,
  * springs_mtx.c, springs_inp.c) ---- */

@@ -300,3 +300,13 @@ cdem_status cdem_output_scratch(const cdem_output *output, FILE **scratch, cdem_
     close(descriptor);
   return cdem_output_fail(output, error, fault);
 }
+
+cdem_status cdem_write_text(const char *path, const char *text, int64_t length, cdem_fault *fault) {
+  cdem_output *file = NULL;
+  CDEM_TRY(cdem_output_open(path, &file, fault));
+  cdem_status status = cdem_output_write(file, text, (size_t)length, fault);
+  if (status == CDEM_OK)
+    status = cdem_output_commit(&file, fault);
+  cdem_output_discard(&file);
+  return status;
+}

@@ -1,6 +1,7 @@
 /* One run: folder, lock, setup, loop, and what is said at the end. */
 #include "run/run.h"
 
+#include "io/io.h"
 #include "io/run_files.h"
 #include "run/summary.h"
 
@@ -15,16 +16,10 @@ static void warn(const cdem_run_options *options, const char *message) {
 }
 
 static cdem_status write_case(const cdem_run_setup *setup, cdem_fault *fault) {
-  cdem_output *file = NULL;
+  const char *text = setup->cases.source;
   char path[4096];
-  CDEM_TRY(
-      cdem_output_open(cdem_run_path(path, setup->options->folder, "case.yaml"), &file, fault));
-  cdem_status status =
-      cdem_output_write(file, setup->cases.source, strlen(setup->cases.source), fault);
-  if (status == CDEM_OK)
-    status = cdem_output_commit(&file, fault);
-  cdem_output_discard(&file);
-  return status;
+  return cdem_write_text(cdem_run_path(path, setup->options->folder, "case.yaml"), text,
+                         (int64_t)strlen(text), fault);
 }
 
 static bool is_there(const char *folder, const char *name) {

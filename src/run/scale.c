@@ -239,16 +239,6 @@ static cdem_status check_text(const scaling_job *job, cdem_fault *fault) {
   return status;
 }
 
-static cdem_status write_text(const scaling_job *job, cdem_fault *fault) {
-  cdem_output *file = NULL;
-  CDEM_TRY(cdem_output_open(job->options->output, &file, fault));
-  cdem_status status = cdem_output_write(file, job->text, strlen(job->text), fault);
-  if (status == CDEM_OK)
-    status = cdem_output_commit(&file, fault);
-  cdem_output_discard(&file);
-  return status;
-}
-
 /* The table of grains first: a case without its grains is of no use. */
 static cdem_status write_all(scaling_job *job, cdem_fault *fault) {
   char heading[600];
@@ -261,7 +251,7 @@ static cdem_status write_all(scaling_job *job, cdem_fault *fault) {
   CDEM_TRY(check_text(job, fault));
   if (job->grains_name != NULL)
     CDEM_TRY(scale_grains(job, fault));
-  return write_text(job, fault);
+  return cdem_write_text(job->options->output, job->text, (int64_t)strlen(job->text), fault);
 }
 
 /* ---- what was done, key by key ---- */

@@ -197,16 +197,6 @@ static void put_results(cdem_json *json, const cdem_case_values *values,
   cdem_json_close(json, '}');
 }
 
-static cdem_status write_text(const char *path, const cdem_json *json, cdem_fault *fault) {
-  cdem_output *file = NULL;
-  CDEM_TRY(cdem_output_open(path, &file, fault));
-  cdem_status status = cdem_output_write(file, json->text, (size_t)json->used, fault);
-  if (status == CDEM_OK)
-    status = cdem_output_commit(&file, fault);
-  cdem_output_discard(&file);
-  return status;
-}
-
 cdem_status cdem_run_summary_write(const cdem_run_output *output, const cdem_table *history,
                                    const cdem_run_summary *summary, cdem_fault *fault) {
   const cdem_case_values *values = cdem_run_values(output->setup);
@@ -223,7 +213,8 @@ cdem_status cdem_run_summary_write(const cdem_run_output *output, const cdem_tab
   cdem_json_close(&json, '}');
   cdem_status status = json.status;
   if (status == CDEM_OK)
-    status = write_text(cdem_run_path(path, output->options->folder, "summary.json"), &json, fault);
+    status = cdem_write_text(cdem_run_path(path, output->options->folder, "summary.json"),
+                             json.text, json.used, fault);
   cdem_json_release(&json);
   return status;
 }

@@ -26,16 +26,6 @@ static int kept_count;
 
 /* ---- one run ---- */
 
-static cdem_status write_case(const char *path, const char *text, cdem_fault *fault) {
-  cdem_output *file = NULL;
-  CDEM_TRY(cdem_output_open(path, &file, fault));
-  cdem_status status = cdem_output_write(file, text, strlen(text), fault);
-  if (status == CDEM_OK)
-    status = cdem_output_commit(&file, fault);
-  cdem_output_discard(&file);
-  return status;
-}
-
 static cdem_status run_in(const char *scratch, cdem_bsm_case wanted, const char *const *override,
                           cdem_table *history, cdem_fault *fault) {
   char path[160], folder[128];
@@ -47,7 +37,7 @@ static cdem_status run_in(const char *scratch, cdem_bsm_case wanted, const char 
   snprintf(folder, sizeof folder, "%s/run", scratch);
   const cdem_run_options options = {
       .path = path, .folder = folder, .overrides = count, .override = override};
-  CDEM_TRY(write_case(path, case_text[wanted], fault));
+  CDEM_TRY(cdem_write_text(path, case_text[wanted], (int64_t)strlen(case_text[wanted]), fault));
   cdem_status status = cdem_run(&options, &summary, fault);
   cdem_run_summary_release(&summary);
   CDEM_TRY(status);

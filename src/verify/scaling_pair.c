@@ -145,16 +145,6 @@ static void compare_states(const cdem_state *one, const cdem_state *other,
 
 /* ---- the runs ---- */
 
-static cdem_status write_case(const char *path, const char *text, cdem_fault *fault) {
-  cdem_output *file = NULL;
-  CDEM_TRY(cdem_output_open(path, &file, fault));
-  cdem_status status = cdem_output_write(file, text, strlen(text), fault);
-  if (status == CDEM_OK)
-    status = cdem_output_commit(&file, fault);
-  cdem_output_discard(&file);
-  return status;
-}
-
 /* What one run leaves. */
 typedef struct {
   cdem_table history;
@@ -183,7 +173,7 @@ static cdem_status write_both(const char *scratch, const char *text, cdem_scalin
   cdem_scaled_table table = {0};
   snprintf(path, sizeof path, "%s/original.yaml", scratch);
   snprintf(scaled, sizeof scaled, "%s/scaled.yaml", scratch);
-  CDEM_TRY(write_case(path, text, fault));
+  CDEM_TRY(cdem_write_text(path, text, (int64_t)strlen(text), fault));
   const cdem_scale_options options = {.path = path, .output = scaled, .scaling = scaling};
   CDEM_TRY(cdem_scale_case(&options, &table, fault));
   cdem_scaled_table_release(&table);

@@ -27,17 +27,7 @@ static const char *const written[] = {"history.csv", "grains.pvd", "grains/grain
 
 static void threads_and_breaks_change_no_bit(void **state) {
   (void)state;
-  cdem_fault fault = {0};
-  write_case("box.yaml", tube);
-  check_ok(run_until("whole", false, 1 << 30, 1, &fault));
-  check_ok(run_until("team", false, 1 << 30, 2, &fault));
-  check_fails(run_until("broken", false, 2, 2, &fault), CDEM_INTERRUPTED, "--resume");
-  check_fails(run_until("broken", true, 2, 1, &fault), CDEM_INTERRUPTED, "interrupted at step");
-  check_ok(run_until("broken", true, 1 << 30, 1, &fault));
-  check_same_files("whole", "team", written);
-  check_same_files("whole", "broken", written);
-  check_same_state("whole", "team");
-  check_same_state("whole", "broken");
+  check_threads_and_breaks(tube, written);
 }
 
 int main(void) {

@@ -49,4 +49,20 @@ static inline void check_same_state(const char *a, const char *b) {
   cdem_state_release(&state[1]);
 }
 
+/* A case gives the same files and states with one thread and two, unbroken and broken twice with
+ * changing threads. */
+static inline void check_threads_and_breaks(const char *text, const char *const *written) {
+  cdem_fault fault = {0};
+  write_case("box.yaml", text);
+  check_ok(run_until("whole", false, 1 << 30, 1, &fault));
+  check_ok(run_until("team", false, 1 << 30, 2, &fault));
+  check_fails(run_until("broken", false, 2, 2, &fault), CDEM_INTERRUPTED, "--resume");
+  check_fails(run_until("broken", true, 2, 1, &fault), CDEM_INTERRUPTED, "interrupted at step");
+  check_ok(run_until("broken", true, 1 << 30, 1, &fault));
+  check_same_files("whole", "team", written);
+  check_same_files("whole", "broken", written);
+  check_same_state("whole", "team");
+  check_same_state("whole", "broken");
+}
+
 #endif
