@@ -218,6 +218,7 @@ cdem_status cdem_run_deformable_solver(cdem_run_deformable *d, cdem_fault *fault
                           local.message);
   if (status != CDEM_OK)
     return cdem_fail(fault, status, "%s", local.message);
-  snprintf(d->run->limiter, sizeof d->run->limiter, "contacts of deformable grains");
+  snprintf(d->run->limiter, sizeof d->run->limiter, "%s of deformable grains",
+           options.integration == CDEM_FDEM_IMPLICIT ? "contacts" : "vibrations");
   return cdem_run_check_step(d->run, cdem_fdem_limit(&d->fdem), fault);
 }
