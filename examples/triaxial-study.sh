@@ -8,11 +8,11 @@
 # With names, only these runs are made and nothing is drawn: E4, E4s-2 (seed 2), L-E2 (law linear),
 # E4s-half (half the rate), ... Without, all that are missing, then figures and tables of all that are
 # there. CDEM names the program. A run whose folder has a summary.json is not run again and a broken
-# one is continued. Everything takes some three hours of one processor, half of them in E1 and B1.
+# one is continued. Everything takes about an hour of one processor, a quarter of it in E1 and B1.
 #
 #     h          the law's stiffness as in E1 (B1): "without the rule"; E1 is h = 1
 #     s          scaled exactly by `cdem scale --coarse-grain`
-#     L-...      law linear in place of penalty, in a rigid cylinder in place of the membrane
+#     L-...      law linear in place of penalty, in a rigid smooth cylinder between smooth plates
 set -eu
 [ $# -ge 1 ] || { echo "usage: $0 OUTDIR [NAME ...]" >&2; exit 2; }
 mkdir -p "$1/cases"
@@ -79,8 +79,10 @@ make() { # NAME
   if [ $law = penalty ]; then
     set -- "$@" --set "contacts[0].penalty_stiffness=$(awk "BEGIN { print 1.8e11 / $most }") N/m3"
   else
-    set -- "$@" --set grains.law=linear --set triaxial.boundary=cylinder \
-      --set "contacts=[{normal_stiffness: $(awk "BEGIN { print 1.1e6 * $most }") N/m, shear_ratio: 1, friction: 0.3, damping_ratio: 0.2}]"
+    numbers="normal_stiffness: $(awk "BEGIN { print 1.1e6 * $most }") N/m, shear_ratio: 1, damping_ratio: 0.2"
+    set -- "$@" --set grains.law=linear --set triaxial.boundary=cylinder --set triaxial.material=smooth \
+      --set 'grains.materials={rock: {density: 2650 kg/m3}, smooth: {}}' \
+      --set "contacts=[{between: [rock, smooth], friction: 0, $numbers}, {friction: 0.3, $numbers}]"
   fi
   "$cdem" scale -q "$base" --coarse-grain --h $size $rule --set results='{}' "$@" -o "$out/cases/$name.yaml"
   echo "$name"
@@ -114,7 +116,7 @@ done
 # One line: name, solid fraction at the start of the shear, peak of the stress ratio, axial strain
 # there, mean ratio of the last tenth of the strain, largest contraction, volumetric strain at the
 # end, mean push between grains, on the plates, of both at the peak, N; largest inertial number; time
-# of the peak, s.
+# of the peak, s; stress ratio at the axial strain 0.01, how stiff it begins.
 numbers() { # NAME
   [ -s "$out/$1/summary.json" ] || return 0
   awk -F, -v name="$1" '
@@ -124,6 +126,7 @@ numbers() { # NAME
       e[n] = $at["axial_strain"]; q[n] = $at["stress_ratio"]; v = $at["volumetric_strain"]
       if (n == 0) solid = $at["solid_fraction"]
       if (v > most) most = v
+      if (e[n] <= 0.01) early = q[n]
       if ($at["inertial_number"] > inertial) inertial = $at["inertial_number"]
       if (q[n] > peak) {
         peak = q[n]; place = e[n]; time = $at["time"]
@@ -136,13 +139,13 @@ numbers() { # NAME
       for (i = 0; i < n; i++) if (e[i] > 0.9 * e[n - 1]) { sum += q[i]; count++ }
       on_plates = ((top < 0 ? -top : top) + (bottom < 0 ? -bottom : bottom)) / plates
       both = (push * (contacts - on_plates) + plates * on_plates) / contacts
-      printf "%s %.4f %.3f %.4f %.3f %.4f %.4f %.1f %.1f %.1f %.2e %.6g\n", name, solid, peak, place,
-        sum / count, most, v, push, plates, both, inertial, time
+      printf "%s %.4f %.3f %.4f %.3f %.4f %.4f %.1f %.1f %.1f %.2e %.6g %.3f\n", name, solid, peak, place,
+        sum / count, most, v, push, plates, both, inertial, time, early
     }' "$out/$1/history.csv"
 }
 
 {
-  echo '# run solid peak strain_at_peak late_ratio contraction volume_at_end push push_on_plates push_of_both inertial time'
+  echo '# run solid peak strain_at_peak late_ratio contraction volume_at_end push push_on_plates push_of_both inertial time ratio_at_0.01'
   for name in $all $seeds $linear E4s-half E4s-double E2s-half E2s-double; do numbers $name; done
 } >"$out/runs.txt"
 
@@ -163,11 +166,12 @@ table() { # PREFIX: "" penalty, L- linear
       sub(/-[0-9]+$/, "", run)
       n[run]++; push[run] += $8; square[run] += $8 * $8; both[run] += $10
       peak[run] += $3; peaks[run] += $3 * $3; place[run] += $4; volume[run] += $7; solid[run] += $2; late[run] += $5
+      early[run] += $13; most[run] += $6
     }
     function scatter(sum, squares, n, v) { v = n > 1 ? (squares - sum * sum / n) / (n - 1) : 0; return v > 0 ? sqrt(v) : 0 }
     END {
-      printf "%-5s %5s %7s %7s %7s %9s %7s %8s %9s %8s %9s %7s %8s %7s %6s\n", "run", "seeds", "solid", "peak", "+-", "strain", "late",
-        "volume", "push,N", "+-", "printed", "ratio", "printed", "diff,%", "15 %"
+      printf "%-4s %5s %6s %7s %6s %6s %7s %6s %8s %8s %8s %7s %8s %6s %8s %7s %5s\n", "run", "seeds", "solid", "at 0.01", "peak", "+-",
+        "strain", "late", "contract", "volume", "push, N", "+-", "printed", "ratio", "printed", "diff, %", "15 %"
       for (k = 1; k <= 12; k++) {
         r = name[k]
         if (!n[r]) continue
@@ -175,16 +179,17 @@ table() { # PREFIX: "" penalty, L- linear
         one = substr(r, 1, 1) "1"
         if (n[one]) ratio = m / (push[one] / n[one]); else ratio = 0
         diff = ratio > 0 ? 100 * (ratio / printed[k] - 1) : 0
-        printf "%-5s %5d %7.4f %7.3f %7.3f %9.4f %7.3f %8.4f %9.1f %8.1f %9.2f %7.2f %8.2f %7.1f %6s\n", r, n[r], solid[r] / n[r], peak[r] / n[r],
-          scatter(peak[r], peaks[r], n[r]), place[r] / n[r], late[r] / n[r], volume[r] / n[r], m, scatter(push[r], square[r], n[r]),
-          newton[k], ratio, printed[k], diff, (diff < 15 && diff > -15 ? "yes" : "no")
+        printf "%-4s %5d %6.4f %7.3f %6.3f %6.3f %7.4f %6.3f %8.4f %8.4f %8.1f %7.1f %8.2f %6.2f %8.2f %7.1f %5s\n", r, n[r], solid[r] / n[r],
+          early[r] / n[r], peak[r] / n[r], scatter(peak[r], peaks[r], n[r]), place[r] / n[r], late[r] / n[r], most[r] / n[r],
+          volume[r] / n[r], m, scatter(push[r], square[r], n[r]), newton[k], ratio, printed[k], diff,
+          (n[one] == 0 ? "" : diff < 15 && diff > -15 ? "yes" : "no")
       }
     }' "$out/runs.txt"
 }
 {
   echo '# law penalty, membrane'
   table ''
-  echo '# law linear, rigid cylinder'
+  echo '# law linear, rigid smooth cylinder'
   table L-
 } >"$out/table5.txt"
 
@@ -269,8 +274,8 @@ lines fig07 stress_ratio 'Figure 7: two sizes' "$ratio" $binary
 lines fig08 volumetric_strain 'Figure 8: two sizes' "$volume" $binary
 forces fig09 'Figure 9: equal spheres, at the peak' $equal
 forces fig10 'Figure 10: two sizes, at the peak' $binary
-lines linear-ratio stress_ratio 'Law linear, rigid cylinder' "$ratio" L-E1 L-E2 L-E3 L-E4 L-E2s L-E3s L-E4s
-lines linear-volume volumetric_strain 'Law linear, rigid cylinder' "$volume" L-E1 L-E2 L-E3 L-E4 L-E2s L-E3s L-E4s
+lines linear-ratio stress_ratio 'Law linear, rigid smooth cylinder' "$ratio" L-E1 L-E2 L-E3 L-E4 L-E2s L-E3s L-E4s
+lines linear-volume volumetric_strain 'Law linear, rigid smooth cylinder' "$volume" L-E1 L-E2 L-E3 L-E4 L-E2s L-E3s L-E4s
 lines scatter-ratio stress_ratio 'Specimens of 60 mm: seeds' "$ratio" E4 E4-2 E4-3 E4-4 E4-5 E4s E4s-2 E4s-3 E4s-4 E4s-5
 
 # ---- figure 11: time of one processor ----
