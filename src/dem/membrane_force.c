@@ -19,10 +19,14 @@ CDEM_ALWAYS_INLINE void mean_of_ring(cdem_membrane *m, int32_t ring) {
     mean[c] = sum[c] / m->around;
 }
 
+static double plane_modulus(const cdem_membrane_options *o) {
+  return o->young * o->thickness / (1.0 - o->poisson * o->poisson);
+}
+
 /* Area vector; and with a stiffness the St Venant-Kirchhoff forces: F = edges * inverse, E = (F^T F
  * - 1)/2, S = t Y/(1 - nu^2) ((1 - nu) E + nu tr E 1), forces on corners 1, 2: -A F S inverse^T. */
-CDEM_ALWAYS_INLINE void look_face(cdem_membrane *m, int64_t f) {
-  const cdem_membrane_options *o = &m->options;
+CDEM_ALWAYS_INLINE void look_face(cdem_membrane *m, int64_t f, double plane) {
+  const double nu = m->options.poisson;
   cdem_membrane_store *s = m->store;
   const int32_t *node = m->face + 3 * f;
   const double *a = m->x + 3 * (int64_t)node[0], *b = m->x + 3 * (int64_t)node[1],
@@ -37,13 +41,12 @@ CDEM_ALWAYS_INLINE void look_face(cdem_membrane *m, int64_t f) {
   cdem_cross3(u, w, normal);
   for (int k = 0; k < 3; k++)
     normal[k] *= 0.5;
-  if (o->young == 0.0)
+  if (plane == 0.0)
     return;
   double e[3] = {0.5 * (cdem_dot3(first, first) - 1.0), 0.5 * (cdem_dot3(second, second) - 1.0),
                  0.5 * cdem_dot3(first, second)};
-  double plane = o->young * o->thickness / (1.0 - o->poisson * o->poisson);
-  double xx = plane * (e[0] + o->poisson * e[1]), yy = plane * (e[1] + o->poisson * e[0]);
-  double xy = plane * (1.0 - o->poisson) * e[2], area = s->rest[f];
+  double xx = plane * (e[0] + nu * e[1]), yy = plane * (e[1] + nu * e[0]);
+  double xy = plane * (1.0 - nu) * e[2], area = s->rest[f];
   s->stored[f] = 0.5 * area * (e[0] * xx + e[1] * yy + 2.0 * e[2] * xy);
   for (int k = 0; k < 3; k++) {
     double px = first[k] * xx + second[k] * xy, py = first[k] * xy + second[k] * yy;
@@ -110,11 +113,12 @@ CDEM_ALWAYS_INLINE void bend_ring(cdem_membrane *m, int32_t ring) {
 
 CDEM_MULTIVERSION void cdem_membrane_look(cdem_membrane *m, int32_t ring) {
   int64_t from = (int64_t)ring * m->around, to = from + m->around;
-  m->store->band[ring] = 0.0;
+  double plane = plane_modulus(&m->options), volume = 0.0;
   for (int64_t f = 2 * from; ring + 1 < m->rings && f < 2 * to; f++) {
-    look_face(m, f);
-    m->store->band[ring] += volume_of_face(m, f);
+    look_face(m, f, plane);
+    volume += volume_of_face(m, f);
   }
+  m->store->band[ring] = volume;
   mean_of_ring(m, ring);
   if (m->options.bending != 0.0)
     bend_ring(m, ring);
@@ -211,7 +215,7 @@ void cdem_membrane_evaluate(cdem_membrane *m, double time) {
 void cdem_membrane_bounds(const cdem_membrane *m, double *k, double *c) {
   const cdem_membrane_options *o = &m->options;
   const cdem_membrane_store *s = m->store;
-  double plane = o->young * o->thickness / (1.0 - o->poisson * o->poisson), most = 0.0;
+  double plane = plane_modulus(o), most = 0.0;
   double least = m->mass[0], bend = 12.0 + 2.0 * s->round[1];
   for (int32_t f = 0; f < m->faces; f++) {
     const double *i = s->inverse + 4 * (int64_t)f;

@@ -4,6 +4,7 @@
  * of grains. Components that are given (end rings) have no kinetic energy of their own: what moves
  * them does the work against all other forces. */
 #include "base/mat3.h"
+#include "base/simd.h"
 #include "dem/membrane_store.h"
 
 #include <math.h>
@@ -32,23 +33,50 @@ static void book(const cdem_membrane *m, int64_t at, bool given, double after, d
     sum[CDEM_MEMBRANE_PLATES] -= m->force[at] * way;
 }
 
+/* A node that is free in all directions. Returns its squared distance from its mark. */
+CDEM_ALWAYS_INLINE double move_free(cdem_membrane *m, int64_t i, double keep, double kick,
+                                    double step, double sum[CDEM_MEMBRANE_SUMS]) {
+  const double *force = m->force + 3 * i, *press = m->store->press + 3 * i;
+  const double *damp = m->store->damp + 3 * i, *marked = m->store->marked + 3 * i;
+  double *v = m->v + 3 * i, *x = m->x + 3 * i, way2 = 0.0, pressed = 0.0, damped = 0.0;
+  double by = kick / m->mass[i], drag = 0.5 * m->drag * m->mass[i];
+  for (int c = 0; c < 3; c++) {
+    double after = keep * v[c] + by * force[c], both = v[c] + after;
+    pressed += press[c] * both;
+    damped += (drag * both - damp[c]) * both;
+    v[c] = after;
+    x[c] += step * after;
+    way2 += (x[c] - marked[c]) * (x[c] - marked[c]);
+  }
+  sum[CDEM_MEMBRANE_PRESSED] += 0.5 * step * pressed;
+  sum[CDEM_MEMBRANE_DAMPED] += 0.5 * step * damped;
+  return way2;
+}
+
+/* One of an end ring, which goes with `plate` along z. */
+static double move_end(cdem_membrane *m, int64_t i, double plate, double step,
+                       double sum[CDEM_MEMBRANE_SUMS]) {
+  double way2 = 0.0;
+  for (int c = 0; c < 3; c++) {
+    int64_t at = 3 * i + c;
+    bool given = is_given(m, true, c);
+    double after = !given ? kicked(m, at, step) : c == 2 ? plate : 0.0;
+    book(m, at, given, after, 0.5 * step * (m->v[at] + after), sum);
+    m->v[at] = after;
+    m->x[at] += step * after;
+    double way = m->x[at] - m->store->marked[at];
+    way2 += way * way;
+  }
+  return way2;
+}
+
 double cdem_membrane_move(cdem_membrane *m, double step, double low, double high) {
-  double most = 0.0, sum[CDEM_MEMBRANE_SUMS] = {0};
+  double most = 0.0, sum[CDEM_MEMBRANE_SUMS] = {0}, half = 0.5 * m->drag * step;
+  double keep = (1.0 - half) / (1.0 + half), kick = step / (1.0 + half);
   for (int64_t i = 0; i < m->nodes; i++) {
     bool end = cdem_membrane_is_end(m, (int32_t)i);
-    double way2 = 0.0;
-    for (int c = 0; c < 3; c++) {
-      int64_t at = 3 * i + c;
-      bool given = is_given(m, end, c);
-      double after = c < 2 ? 0.0 : i < m->around ? low : high;
-      if (!given)
-        after = kicked(m, at, step);
-      book(m, at, given, after, 0.5 * step * (m->v[at] + after), sum);
-      m->v[at] = after;
-      m->x[at] += step * m->v[at];
-      double way = m->x[at] - m->store->marked[at];
-      way2 += way * way;
-    }
+    double way2 = end ? move_end(m, i, i < m->around ? low : high, step, sum)
+                      : move_free(m, i, keep, kick, step, sum);
     most = way2 > most || !(way2 == way2) ? way2 : most;
   }
   for (int k = 0; k < CDEM_MEMBRANE_SUMS; k++)

@@ -7,7 +7,7 @@ shift 2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 [ $# -gt 0 ] || set -- cantilever plate-with-hole bar-wave compression brazilian-disc notched-beam slope-joint block-stack impact angle-of-repose biaxial \
-  settling hopper drum foundation-a
+  settling hopper drum foundation-a triaxial
 failed=0
 for name; do
   if ! "$cdem" run -q "$cases/$name.yaml" -o "$work/$name" >"$work/out" 2>&1; then
