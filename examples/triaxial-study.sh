@@ -8,7 +8,7 @@
 # With names, only these runs are made and nothing is drawn: E4, E4s-2 (seed 2), L-E2 (law linear),
 # E4s-half (half the rate), ... Without, all that are missing, then figures and tables of all that are
 # there. CDEM names the program. A run whose folder has a summary.json is not run again and a broken
-# one is continued. Everything takes some three hours of one processor, half of them in E1 and B1.
+# one is continued. Everything takes about an hour of one processor, a quarter of it in E1 and B1.
 #
 #     h          the law's stiffness as in E1 (B1): "without the rule"; E1 is h = 1
 #     s          scaled exactly by `cdem scale --coarse-grain`
