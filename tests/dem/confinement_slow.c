@@ -287,9 +287,26 @@ static void what_cannot_be_confined_is_refused(void **state) {
   specimen_release(&s);
 }
 
+static void a_membrane_that_is_not_finite_ends_the_run(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  cdem_dem dem = {0};
+  specimen s;
+  specimen_init(&s, 0.05, 0.08, 0.01, 1e4);
+  s.confinement.pressure = zero_to(&s, 0.0, 0.0, 1.0);
+  model_add(&s.m, 0.0, 0.0, 0.04, 0.01);
+  check_ok(cdem_dem_init(&s.m.options, &dem, &fault));
+  const cdem_membrane *m = cdem_dem_membrane(&dem);
+  m->v[3 * (m->nodes / 2)] = NAN;
+  check_fails(cdem_dem_steps(&dem, 3, &fault), CDEM_NUMERIC, "the membrane is no longer finite");
+  cdem_dem_release(&dem);
+  specimen_release(&s);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(a_sphere_is_caught_by_the_membrane),
                                      cmocka_unit_test(a_grain_outside_is_told_of),
+                                     cmocka_unit_test(a_membrane_that_is_not_finite_ends_the_run),
                                      cmocka_unit_test(threads_change_no_bit),
                                      cmocka_unit_test(a_restored_specimen_goes_on_to_the_same_bits),
                                      cmocka_unit_test(the_book_of_a_specimen_closes),

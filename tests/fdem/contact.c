@@ -406,6 +406,14 @@ static void what_cannot_be_is_refused(void **state) {
   check_fails(cdem_fdem_contacts_forces(m.contacts, &m.view, &out, &m.book, &fault), CDEM_NUMERIC,
               "m is 0.011 m deep in wall 'floor'");
   model_release(&m);
+  model_make(&m, 1, skins, 0.02, law);
+  model_start(&m, 0.0, 1);
+  for (int c = 0; c < 3; c++) /* one node is pulled out by more than the skin has room for */
+    m.place[c] *= 1.5;
+  out = model_out(&m);
+  check_fails(cdem_fdem_contacts_forces(m.contacts, &m.view, &out, &m.book, &fault), CDEM_NUMERIC,
+              "its strains are not small");
+  model_release(&m);
 }
 
 static void memory_that_ends_is_told(void **state) {

@@ -137,6 +137,19 @@ static cdem_status make_step_save_restore(const specimen *p, cdem_fdem *one, cde
   return cdem_fdem_steps(two, 1, &fault);
 }
 
+static void a_membrane_that_is_not_finite_ends_the_run(void **state) {
+  (void)state;
+  specimen p;
+  cdem_fdem fdem;
+  specimen_make(&p, 1, 1);
+  check_ok(cdem_fdem_init(&p.s.options, &fdem, &fault));
+  const cdem_membrane *m = cdem_fdem_membrane(&fdem);
+  m->v[3 * (m->nodes / 2)] = NAN;
+  check_fails(cdem_fdem_steps(&fdem, 3, &fault), CDEM_NUMERIC, "the membrane is no longer finite");
+  cdem_fdem_release(&fdem);
+  scene_release(&p.s);
+}
+
 static void memory_that_ends_is_told(void **state) {
   (void)state;
   specimen p;
@@ -187,7 +200,8 @@ static void memory_of_a_shape_that_ends_is_told(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(a_restored_specimen_goes_on_to_the_same_bits),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_membrane_that_is_not_finite_ends_the_run),
+                                     cmocka_unit_test(a_restored_specimen_goes_on_to_the_same_bits),
                                      cmocka_unit_test(memory_that_ends_is_told),
                                      cmocka_unit_test(memory_of_a_shape_that_ends_is_told)};
   return cmocka_run_group_tests(tests, NULL, NULL);
