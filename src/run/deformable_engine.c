@@ -158,6 +158,7 @@ const cdem_run_engine cdem_run_engine_deformable = {
     .strides = true,
     .row_every = 1000,
     .look_every = 200,
+    .follow_every = 250,
     .energies = {{"stored",
                   {"translation", "rotation", "vibration", "elastic", "normal", "shear",
                    "membrane"}},

@@ -32,10 +32,11 @@ typedef struct {
 } cdem_run_energy_panel;
 
 typedef struct {
-  const char *name;   /* "body" */
-  bool strides;       /* many steps at once are faster than as many single ones */
-  int64_t row_every;  /* steps between two rows of a relaxation that names no time ... */
-  int64_t look_every; /* ... and between two looks at its balance */
+  const char *name;     /* "body" */
+  bool strides;         /* many steps at once are faster than as many single ones */
+  int64_t row_every;    /* steps between two rows of a relaxation that names no time ... */
+  int64_t look_every;   /* ... and between two looks at its balance */
+  int64_t follow_every; /* steps between two calls of `look`; 0: at rows */
   cdem_run_energy_panel energies[CDEM_RUN_PANELS];
 
   /* From the case to a state at time zero; checkpoint: of a broken run, from which files that were
@@ -50,8 +51,8 @@ typedef struct {
   void (*now)(const cdem_run_setup *setup, cdem_run_now *now);
   /* The state after `steps` steps does not depend on how they were parted into calls. */
   cdem_status (*advance)(cdem_run_setup *setup, int64_t steps, cdem_fault *fault);
-  /* Called where a row is due, before it is written: at steps that the case alone decides. NULL:
-   * nothing to do. */
+  /* Called at steps that are multiples of `follow_every`, or where that is 0 where a row is due,
+   * before it is written: at steps that the case alone decides. NULL: nothing to do. */
   cdem_status (*look)(cdem_run_setup *setup, cdem_fault *fault);
   /* Ratio by which a relaxation is balanced; INFINITY while there is nothing to be balanced. */
   double (*unbalanced)(const cdem_run_setup *setup);

@@ -63,6 +63,8 @@ static int64_t stride(const cdem_run_output *output) {
   if (!setup->engine->strides)
     return 1;
   int64_t steps = output->stride;
+  if (setup->engine->follow_every > 0)
+    steps = least_of(steps, until_multiple(now.steps, setup->engine->follow_every));
   if (v->analysis == CDEM_ANALYSIS_RELAXATION) {
     steps = least_of(steps, until_multiple(now.steps, setup->engine->look_every));
     steps = least_of(steps, v->most_steps - now.steps);
@@ -131,11 +133,12 @@ static cdem_status draw_due(cdem_run_output *output, const cdem_run_now *now, cd
 /* Rows, frames, pictures and checkpoints of this step. */
 static cdem_status write_due(cdem_run_output *output, bool *stop, cdem_fault *fault) {
   const cdem_run_now now = cdem_run_where(output->setup);
-  if (row_is_due(output, &now)) {
-    if (output->setup->engine->look != NULL)
-      CDEM_TRY(output->setup->engine->look(output->setup, fault));
+  const cdem_run_engine *engine = output->setup->engine;
+  bool row = row_is_due(output, &now), multiple = engine->follow_every > 0;
+  if (engine->look != NULL && (multiple ? now.steps % engine->follow_every == 0 : row))
+    CDEM_TRY(engine->look(output->setup, fault));
+  if (row)
     CDEM_TRY(cdem_run_output_row(output, stop, fault));
-  }
   if (frame_is_due(output, &now))
     CDEM_TRY(cdem_run_output_frame(output, fault));
   CDEM_TRY(draw_due(output, &now, fault));

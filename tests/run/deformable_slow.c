@@ -27,6 +27,55 @@ static void threads_and_breaks_change_no_bit(void **state) {
   check_threads_and_breaks(triaxial, written);
 }
 
+/* Loose grains that a lid presses together: the step becomes shorter on the way. */
+static const char pressed[] =
+    "end: 4 ms\n"
+    "grains:\n"
+    "  dimension: 3\n"
+    "  law: penalty\n"
+    "  deformable: {shape: cubesphere, refinement: 2}\n"
+    "  packing: {kind: loose, cylinder: yes, low: [-0.06, -0.06, 0], high: [0.06, 0.06, 0.15], "
+    "radius: 20 mm, count: 16}\n"
+    "  materials: {rock: {density: 2650 kg/m3, young: 40 GPa, poisson: 0.2}}\n"
+    "contacts: [{penalty_stiffness: 1e11 N/m3, friction: 0.3, damping_ratio: 0.2}]\n"
+    "walls:\n"
+    "  floor: {shape: plane, normal: [0, 0, 1]}\n"
+    "  tube: {shape: cylinder, radius: 60 mm, center: [0, 0, 0], axis: [0, 0, 1]}\n"
+    "  lid: {shape: plane, normal: [0, 0, -1], center: [0, 0, 0.16], velocity: {z: -15 m/s}}\n";
+
+/* The automatic step follows the contacts by the number of steps alone: how often somebody wants a
+ * row does not change what happens. */
+static void rows_do_not_steer_the_motion(void **state) {
+  (void)state;
+  static const char *const rare[] = {
+      "history_every=1 ms", "results={most: {of: time_step, take: max}, least: {of: time_step, "
+                            "take: min}}"};
+  static const char *const often[] = {"history_every=0.1 ms", "results={}"};
+  cdem_fault fault = {0};
+  cdem_state saved[2] = {{0}};
+  cdem_run_summary s;
+  char path[600];
+  write_case("box.yaml", pressed);
+  check_ok(run_case("box.yaml", "rare", 2, rare, &s, &fault));
+  assert_true(key_value(&s, "most") > 1.05 * key_value(&s, "least")); /* it was changed */
+  cdem_run_summary_release(&s);
+  check_ok(run_case("box.yaml", "often", 2, often, &s, &fault));
+  cdem_run_summary_release(&s);
+  for (int i = 0; i < 2; i++) {
+    snprintf(path, sizeof path, "%s/checkpoint.h5", in_scratch(i == 0 ? "rare" : "often"));
+    check_ok(cdem_read_state(path, &saved[i], &fault));
+  }
+  static const char *const names[] = {"fdem/center", "fdem/amplitude", "fdem/force", "fdem/steps"};
+  for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+    const cdem_array *a = cdem_state_find(&saved[0], names[k]);
+    const cdem_array *b = cdem_state_find(&saved[1], names[k]);
+    assert_true(a != NULL && b != NULL && a->count == b->count);
+    assert_memory_equal(a->data, b->data, (size_t)a->count * cdem_array_size(a->type));
+  }
+  cdem_state_release(&saved[0]);
+  cdem_state_release(&saved[1]);
+}
+
 /* ---- rigid grains are the limit of stiff ones ---- */
 
 /* 160 balls of 40 mm in a membrane. Stiff ones keep few modes: nothing excites them. */
@@ -82,6 +131,7 @@ static void stiff_grains_are_rigid_ones(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(threads_and_breaks_change_no_bit),
+      cmocka_unit_test(rows_do_not_steer_the_motion),
       cmocka_unit_test(stiff_grains_are_rigid_ones),
   };
   return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
