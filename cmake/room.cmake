@@ -11,7 +11,7 @@ if(CDEM_SANITIZE)
   add_link_options(-fsanitize=${CDEM_SANITIZE})
   add_compile_definitions(CDEM_NO_MULTIVERSION)
 endif()
-add_compile_definitions(_GNU_SOURCE CDEM_VERSION="${PROJECT_VERSION}")
+add_compile_definitions(_GNU_SOURCE)
 
 set(CDEM_ROOM_TARGETS "" CACHE INTERNAL "")
 function(cdem_room name)

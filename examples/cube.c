@@ -2,43 +2,35 @@
  *
  *   cc cube.c $(pkg-config --cflags --libs cdem) -o cube && ./cube
  */
-#include "network/network.h"
-
+#include <libcdem.h>
 #include <stdio.h>
 
-static cdem_status print_pairs(void *context, const cdem_chunk *chunk, const cdem_buffer *buffer,
-                               cdem_fault *fault) {
-  (void)context, (void)buffer, (void)fault;
-  for (int64_t p = 0; p < chunk->pairs; p++) {
-    const cdem_pair *pair = &chunk->pair[p];
-    printf("%d-%d %s %s:", pair->local[0] + 1, pair->local[1] + 1, cdem_class_name(pair->class_),
-           cdem_form_name(pair->set.form));
-    for (int r = 0; r < pair->set.rows; r++)
-      printf(" %.6g", pair->set.row[r].stiffness);
-    printf("\n");
-  }
-  return CDEM_OK;
+static bool print_pair(void *context, const libcdem_pair *pair) {
+  (void)context;
+  printf("%d-%d %s %s:", pair->place[0] + 1, pair->place[1] + 1, libcdem_class_name(pair->kind),
+         libcdem_form_name(pair->springs.form));
+  for (int t = 0; t < pair->springs.terms; t++)
+    printf(" %.6g", pair->springs.term[t].stiffness);
+  printf("\n");
+  return true;
 }
 
 int main(void) {
-  cdem_fault fault = {0};
-  cdem_mesh mesh = {0};
-  cdem_model model = {0};
-  cdem_mesh_grid_options cube = {
-      .shape = CDEM_SHAPE_HEX8, .count = {1, 1, 1}, .size = {1.0, 1.0, 1.0}};
-  cdem_material rock = cdem_material_isotropic(40e9, 0.25);
-  cdem_model_options body = {
-      .mesh = &mesh, .materials = 1, .material = &rock, .section = {CDEM_PLANE_STRAIN, 1.0}};
-  cdem_convert_options convert = {.frame = CDEM_FRAME_BODY};
-  cdem_pair_sink sink = {.write = print_pairs};
-  cdem_status status = cdem_mesh_grid(&cube, &mesh, &fault);
-  if (status == CDEM_OK)
-    status = cdem_model_init(&body, &model, &fault);
-  if (status == CDEM_OK)
-    status = cdem_network_convert(&model, &convert, &sink, 1, &fault);
-  if (status != CDEM_OK)
+  const int32_t bricks[3] = {1, 1, 1};
+  const double edge[3] = {1.0, 1.0, 1.0}, young_and_poisson[2] = {40e9, 0.25};
+  libcdem_fault fault = {0};
+  libcdem_mesh *cube = NULL;
+  libcdem_model *rock = NULL;
+  libcdem_status status = libcdem_mesh_box("hex8", bricks, edge, &cube, &fault);
+  if (status == LIBCDEM_OK)
+    status = libcdem_model_create(cube, &rock, &fault);
+  if (status == LIBCDEM_OK)
+    status = libcdem_model_material(rock, "isotropic", 2, young_and_poisson, &fault);
+  if (status == LIBCDEM_OK)
+    status = libcdem_model_visit(rock, print_pair, NULL, NULL, &fault);
+  if (status != LIBCDEM_OK)
     fprintf(stderr, "error: %s\n", fault.message);
-  cdem_model_release(&model);
-  cdem_mesh_release(&mesh);
-  return cdem_status_exit_code(status);
+  libcdem_model_destroy(&rock);
+  libcdem_mesh_destroy(&cube);
+  return (int)status;
 }

@@ -365,8 +365,8 @@ int cmd_compare(int argc, char **argv) {
       "Examples:\n"
       "  cdem compare coarse-run fine-run\n"
       "  cdem compare a b c --columns top_force,solid --from '58 ms' --to '80 ms'\n"
-      "  cdem compare a b --figure load.png --columns force --x tip --y-scale -1 --label coarse "
-      "--label fine",
+      "  cdem compare a b --figure load.png --columns force --x tip --y-scale -1 \\\n"
+      "      --label coarse --label fine",
       NULL,
       NULL,
       NULL};

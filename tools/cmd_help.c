@@ -7,15 +7,22 @@
 static const char overview[] = "cdem: finite-element stiffness as springs, for "
                                "continuum-discontinuum models of rock and soil\n"
                                "\n"
-                               "usage: cdem COMMAND [options] [operands]\n"
+                               "Usage: cdem COMMAND [OPTION...] [OPERAND...]\n"
                                "\n";
 
-static const char topics_text[] =
+static const char topics_text[] = "\n"
+                                  "`cdem COMMAND --help` shows a command's options, `cdem help "
+                                  "signs|errors|files|case` explains\n"
+                                  "the sign rules of springs, the exit codes, the material file, "
+                                  "and the case file of `cdem run`\n"
+                                  "(`cdem help case interfaces.tension`: one key).\n";
+
+static const char own_usage[] =
+    "Usage: cdem help [COMMAND|TOPIC]\n"
+    "Help on a command, or on a topic: signs, errors, files, case.\n"
     "\n"
-    "`cdem COMMAND --help` shows a command's options; `cdem help signs|errors|files|case`\n"
-    "explains the sign rules of springs, the exit codes, the material file, and the case file of "
-    "`cdem run`\n"
-    "(`cdem help case interfaces.tension`: one key).\n";
+    "`cdem help case KEY` explains a section or a key of case files, `cdem help case --schema`\n"
+    "writes their JSON Schema, `cdem help case --markdown` their reference.\n";
 
 static const char signs[] =
     "signs and forms of springs\n"
@@ -85,8 +92,12 @@ static void print_overview(void) {
 
 int cmd_help(int argc, char **argv) {
   const char *topic = argc > 1 ? argv[1] : NULL;
-  if (topic == NULL || strcmp(topic, "--help") == 0 || strcmp(topic, "help") == 0) {
+  if (topic == NULL) {
     print_overview();
+    return 0;
+  }
+  if (strcmp(topic, "--help") == 0 || strcmp(topic, "help") == 0) {
+    fputs(own_usage, stdout);
     return 0;
   }
   if (strcmp(topic, "case") == 0)

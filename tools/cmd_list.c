@@ -149,8 +149,9 @@ int cmd_list(int argc, char **argv) {
   static const struct argp argp = {
       none,
       parse,
-      "[elements|materials|formats|laws|packings|shapes|commands|case]",
-      "Lists what the program knows.",
+      "[TOPIC]",
+      "Lists what the program knows: elements, materials, formats, laws, packings, shapes, commands "
+      "or case; without TOPIC all.",
       NULL,
       NULL,
       NULL};

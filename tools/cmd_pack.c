@@ -69,12 +69,12 @@ int cmd_pack(int argc, char **argv) {
       "Lengths may have units. Same options, same bits.\n"
       "Examples:\n"
       "  cdem pack square --size 7,3.5 --radius 0.05 --centres-inside -o a.csv\n"
-      "  cdem pack inward --size 7,3.5 --sizes power --least 0.02 --most 0.05 --exponent -2.5 -o "
-      "c.csv -o c.vtp\n"
-      "  cdem pack loose --size 0.2,0.2,0.4 --cylinder --radius '5 mm' --fraction 0.3 -o "
-      "tube.csv\n"
-      "  cdem pack loose --size 1,1,1 --periodic xyz --count 1000 --radius 0.04 --compact "
-      "--pressure '10 kPa' -o rcp.csv",
+      "  cdem pack inward --size 7,3.5 --sizes power --least 0.02 --most 0.05 \\\n"
+      "      --exponent -2.5 -o c.csv -o c.vtp\n"
+      "  cdem pack loose --size 0.2,0.2,0.4 --cylinder --radius '5 mm' \\\n"
+      "      --fraction 0.3 -o tube.csv\n"
+      "  cdem pack loose --size 1,1,1 --periodic xyz --count 1000 --radius 0.04 \\\n"
+      "      --compact --pressure '10 kPa' -o rcp.csv",
       NULL,
       NULL,
       NULL};

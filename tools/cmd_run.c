@@ -1,8 +1,8 @@
 /* cdem run CASE.yaml [-o DIR]: one run, from a case to a folder of results. */
+#include "base/version.h"
 #include "command.h"
 #include "io/run_files.h"
 #include "run/run.h"
-#include "version.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -261,8 +261,8 @@ int cmd_run(int argc, char **argv) {
                                     .threads = s.threads,
                                     .figures = !s.no_figures,
                                     .frames = !s.no_frames,
-                                    .version = CDEM_VERSION,
-                                    .commit = CDEM_COMMIT,
+                                    .version = cdem_version(),
+                                    .commit = cdem_version_commit(),
                                     .progress = &progress,
                                     .warnings = &warnings};
   cdem_run_summary summary = {0};

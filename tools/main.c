@@ -14,12 +14,6 @@ const command commands[] = {
     {NULL, NULL, NULL},
 };
 
-static void print_version(void) {
-  printf("cdem %s (%s)\nbuilt with %s, %s\n", CDEM_VERSION, CDEM_COMMIT, CDEM_COMPILER, CDEM_BUILD);
-  printf(
-      "Licence GPL-3.0-or-later: you may change and share this program; there is no warranty.\n");
-}
-
 static int unknown(const char *name) {
   const char *names[sizeof commands / sizeof commands[0]];
   int count = 0;
@@ -38,7 +32,7 @@ int main(int argc, char **argv) {
   if (argc < 2)
     command_usage("a command is wanted: springs, poisson, run, verify, list or help");
   if (strcmp(argv[1], "--version") == 0 || strcmp(argv[1], "-V") == 0) {
-    print_version();
+    version_print();
     return command_finish(0);
   }
   const char *name =

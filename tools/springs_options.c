@@ -367,8 +367,9 @@ void springs_options_parse(int argc, char **argv, springs_settings *settings) {
       "MESH",
       "Equivalent spring sets of every node pair of a mesh, with proof that they are the "
       "finite-element body.\v"
-      "MESH is .msh, .geo, .step or .inp. Example:\n"
-      "  cdem springs data/meshes/block-with-hole.geo -E 40GPa --nu 0.25 -o springs.csv --certify",
+      "MESH is .msh, .geo, .step or .inp.\n"
+      "Examples:\n"
+      "  cdem springs block-with-hole.geo -E 40GPa --nu 0.25 -o springs.csv --certify",
       NULL,
       NULL,
       NULL};

@@ -14,6 +14,7 @@
 #define CDEM_BASE_SIMD_H
 
 #if defined __x86_64__ && defined __GNUC__ && !defined __clang__ && !defined CDEM_NO_MULTIVERSION
+#define CDEM_MULTIVERSIONED
 #define CDEM_MULTIVERSION                                                                          \
   __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else

@@ -1,5 +1,9 @@
 #include "io/hdf5_tools.h"
 
+#include "base/version.h"
+
+#include <stdio.h>
+
 cdem_hdf5_silence cdem_hdf5_silence_begin(void) {
   cdem_hdf5_silence before = {0};
   H5Eget_auto2(H5E_DEFAULT, &before.report, &before.data);
@@ -43,6 +47,12 @@ bool cdem_hdf5_put_scalar(hid_t object, const char *name, hid_t type, const void
   if (space >= 0)
     H5Sclose(space);
   return good;
+}
+
+bool cdem_hdf5_put_program(hid_t file) {
+  char text[64];
+  snprintf(text, sizeof text, "cdem %s", cdem_version());
+  return cdem_hdf5_put_text(file, "program", text);
 }
 
 hid_t cdem_hdf5_dataset_properties(void) {

@@ -18,6 +18,8 @@ void cdem_hdf5_silence_end(cdem_hdf5_silence before);
 bool cdem_hdf5_put_texts(hid_t object, const char *name, const char *const *text, int count);
 bool cdem_hdf5_put_text(hid_t object, const char *name, const char *text);
 bool cdem_hdf5_put_scalar(hid_t object, const char *name, hid_t type, const void *value);
+/* The attribute "program": which release of cdem writes the file. */
+bool cdem_hdf5_put_program(hid_t file);
 
 /* Properties of a new dataset, without the time of day, so that the same input gives the same
  * bytes; negative on failure. */

@@ -323,7 +323,7 @@ static cdem_status put_settings(h5_writer *h5, cdem_fault *fault) {
   bool good =
       cdem_hdf5_put_text(h5->file, "format", "cdem springs") &&
       cdem_hdf5_put_scalar(h5->file, "format_version", H5T_NATIVE_INT, &version) &&
-      cdem_hdf5_put_text(h5->file, "program", "cdem " CDEM_VERSION) &&
+      cdem_hdf5_put_program(h5->file) &&
       cdem_hdf5_put_text(h5->file, "mesh",
                          model->mesh->source != NULL ? model->mesh->source : "generated") &&
       cdem_hdf5_put_scalar(h5->file, "dimension", H5T_NATIVE_INT, &model->dimension) &&

@@ -9,6 +9,7 @@
  * CalculiX reads numbers from 20 columns, so values carry 14 significant digits. Degrees of freedom
  * of one node are coupled too (SPRING2 with the same node twice); CalculiX 2.20 takes that and
  * negative stiffness (tests/io/ccx.sh). */
+#include "base/version.h"
 #include "io/output.h"
 #include "io/springs_matrix.h"
 #include "io/text.h"
@@ -94,13 +95,13 @@ static cdem_status add_row(const cdem_sparse *sparse, int32_t p, int a, double l
 static void put_nodes(const cdem_matrix_writer *matrix, FILE *stream) {
   const cdem_mesh *mesh = matrix->model->mesh;
   fprintf(stream,
-          "** spring network of %s, by cdem " CDEM_VERSION "\n"
+          "** spring network of %s, by cdem %s\n"
           "** The springs are the entries of the assembled matrix, -K_ab between degrees of\n"
           "** freedom a < b: they move as the network does, but single springs of the network\n"
           "** cannot be told apart here (use .csv or .h5 for those).\n"
           "** Use: *INCLUDE, INPUT=this file; then *BOUNDARY and *STEP with *CLOAD on its nodes.\n"
           "*NODE, NSET=Nall\n",
-          mesh->source != NULL ? mesh->source : "a generated mesh");
+          mesh->source != NULL ? mesh->source : "a generated mesh", cdem_version());
   for (int32_t p = 0; p < matrix->sparse.nodes; p++) {
     int32_t node = matrix->sparse.node[p];
     fprintf(stream, "%" PRId64, mesh->node_tag[node]);

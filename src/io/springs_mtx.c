@@ -1,4 +1,5 @@
 /* The assembled network matrix as Matrix Market, and the wrapper both matrix writers share. */
+#include "base/version.h"
 #include "io/output.h"
 #include "io/springs_matrix.h"
 #include "io/text.h"
@@ -67,8 +68,8 @@ static void put_comments(const cdem_matrix_writer *matrix, FILE *stream) {
   const char *components = sparse->dofs == 2 ? "ux, uy" : "ux, uy, uz";
   if (cdem_model_is_cosserat(matrix->model))
     components = "ux, uy, rotation";
-  fprintf(stream, "%% stiffness matrix of the spring network of %s, by cdem " CDEM_VERSION "\n",
-          mesh->source != NULL ? mesh->source : "a generated mesh");
+  fprintf(stream, "%% stiffness matrix of the spring network of %s, by cdem %s\n",
+          mesh->source != NULL ? mesh->source : "a generated mesh", cdem_version());
   fprintf(stream, "%% f = K u; N/m (rotations: N and N m)\n");
   fprintf(stream, "%% row %d*(p - 1) + c is component c of the p-th node below, c = 1..%d for %s\n",
           sparse->dofs, sparse->dofs, components);

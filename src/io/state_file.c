@@ -138,7 +138,7 @@ static cdem_status put_state(state_writer *writer, const cdem_state *state, cdem
         H5Fcreate(cdem_output_path(writer->output), H5F_ACC_TRUNC, H5P_DEFAULT, writer->access);
   bool good = writer->file >= 0 && cdem_hdf5_put_text(writer->file, "format", FORMAT) &&
               cdem_hdf5_put_scalar(writer->file, "format_version", H5T_NATIVE_INT, &version) &&
-              cdem_hdf5_put_text(writer->file, "program", "cdem " CDEM_VERSION);
+              cdem_hdf5_put_program(writer->file);
   for (int64_t i = 0; i < state->arrays && good; i++)
     good = put_array(writer, &state->array[i]) && writer->target.error == 0;
   return good ? CDEM_OK : fail(writer, fault);

@@ -1,0 +1,66 @@
+/* What the tests of the face share: cmocka, and statuses as libcdem has them. Nothing of src/ but
+ * libcdem.h. */
+#ifndef CDEM_TESTS_API_SUPPORT_H
+#define CDEM_TESTS_API_SUPPORT_H
+
+/* cmocka.h needs the others before it. */
+/* clang-format off */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <cmocka.h>
+/* clang-format on */
+
+#include <libcdem.h>
+
+/* The call succeeds; otherwise its message is shown. `fault` must be in scope. */
+#define check_ok(call)                                                                             \
+  do {                                                                                             \
+    if ((call) != LIBCDEM_OK)                                                                      \
+      fail_msg("%s failed: %s", #call, fault.message);                                             \
+  } while (0)
+
+/* The call fails with this status and its message holds this text; clears `fault`. */
+#define check_fails(call, wanted, text)                                                            \
+  do {                                                                                             \
+    memset(&fault, 0, sizeof fault);                                                               \
+    assert_int_equal((call), (wanted));                                                            \
+    assert_int_equal(fault.status, (wanted));                                                      \
+    if (strstr(fault.message, (text)) == NULL)                                                     \
+      fail_msg("message '%s' does not hold '%s'", fault.message, (text));                          \
+    memset(&fault, 0, sizeof fault);                                                               \
+  } while (0)
+
+/* A scratch folder: group setup and teardown. */
+static char scratch[64];
+
+static int scratch_make(void **state) {
+  (void)state;
+  snprintf(scratch, sizeof scratch, "/tmp/cdem-api-XXXXXX");
+  return mkdtemp(scratch) == NULL;
+}
+
+static int scratch_remove(void **state) {
+  (void)state;
+  char command[128];
+  snprintf(command, sizeof command, "rm -rf '%s'", scratch);
+  return system(command);
+}
+
+/* scratch/NAME; eight at a time. */
+static inline const char *in_scratch(const char *name) {
+  static char path[8][512];
+  static int next;
+  next = (next + 1) % 8;
+  snprintf(path[next], sizeof path[next], "%s/%s", scratch, name);
+  return path[next];
+}
+
+#endif
