@@ -61,4 +61,4 @@ done <"$work/citations"
 awk -f docs/figures/rooms.awk cmake/rooms.txt docs/rooms/index.md | cmp -s - docs/figures/rooms.svg ||
   { echo "docs/figures/rooms.svg is old; make it again by the command of docs/rooms/index.md"; bad=1; }
 [ $bad -eq 0 ]
-echo "$pages pages run"
+echo "$pages pages run, $cited equations cited"
