@@ -2,22 +2,25 @@
 #include "base/suggest.h"
 #include "command.h"
 #include "verify/verify.h"
+#include "verify_page.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { OPTION_JSON = 256, OPTION_LIST, OPTION_SLOW, MOST_GROUPS = 64 };
+enum { OPTION_JSON = 256, OPTION_LIST, OPTION_SLOW, OPTION_MARKDOWN, MOST_GROUPS = 64 };
 
 static const struct argp_option option_table[] = {
     {"json", OPTION_JSON, NULL, 0, "print the results as a JSON array", 0},
     {"list", OPTION_LIST, NULL, 0, "list groups and checks, run nothing", 0},
+    {"markdown", OPTION_MARKDOWN, NULL, 0,
+     "print the page docs/reference/verification.md; with --list without values", 0},
     {"slow", OPTION_SLOW, NULL, 0, "run the long checks too", 0},
     {"quiet", 'q', NULL, 0, "no talk and no progress on stderr", 0},
     {0},
 };
 
 typedef struct {
-  bool json, list, slow;
+  bool json, list, markdown, slow;
   int groups;
   const char *group[MOST_GROUPS];
 } settings;
@@ -30,6 +33,9 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     return 0;
   case OPTION_LIST:
     s->list = true;
+    return 0;
+  case OPTION_MARKDOWN:
+    s->markdown = true;
     return 0;
   case OPTION_SLOW:
     s->slow = true;
@@ -73,8 +79,8 @@ static void list_checks(const settings *s) {
       continue;
     printf("%s: %s (%d checks)\n", group->name, group->summary, group->checks);
     for (int i = 0; i < group->checks; i++)
-      printf("  %s%s [%s]\n", group->check[i].name, group->check[i].slow ? " (slow)" : "",
-             group->check[i].source);
+      printf("  %s%s [%s] %s\n", group->check[i].name, group->check[i].slow ? " (slow)" : "",
+             group->check[i].source, cdem_check_kind_find(group->check[i].kind)->text);
   }
 }
 
@@ -112,36 +118,22 @@ static void tell_skipped(void *context, const char *group, const char *name, con
   command_warn("%s, %s: could not run: %s", group, name, reason);
 }
 
-int cmd_verify(int argc, char **argv) {
-  static const struct argp argp = {
-      option_table,
-      parse,
-      "[GROUP...]",
-      "Every claim of the program as a number beside its source.\v"
-      "Exit code 1 when a check fails. A check that could not run is named on stderr and is not "
-      "among the results.",
-      NULL,
-      NULL,
-      NULL};
-  settings s = {0};
-  command_parse(&argp, argc, argv, &s);
-  for (int i = 0; i < s.groups; i++)
-    check_group(s.group[i]);
-  if (s.list) {
-    list_checks(&s);
-    return 0;
-  }
+static int verify(const settings *s) {
   tally counted = {0};
   cdem_fault fault = {0};
   cdem_check_list list = {0};
-  const cdem_verify_options options = {
-      .slow = s.slow, .progress = command_progress(), .context = &counted, .skipped = tell_skipped};
+  const cdem_verify_options options = {.slow = s->slow,
+                                       .progress = command_progress(),
+                                       .context = &counted,
+                                       .skipped = tell_skipped};
   command_catch_interrupt();
-  cdem_status status = cdem_verify_run(s.group, s.groups, &options, &list, &fault);
+  cdem_status status = cdem_verify_run(s->group, s->groups, &options, &list, &fault);
   command_progress_end();
   int code = 0;
-  if (status == CDEM_OK && s.json)
+  if (status == CDEM_OK && s->json)
     status = cdem_write_checks_json(stdout, &list, &fault);
+  else if (status == CDEM_OK && s->markdown)
+    verify_print_page(&list);
   else if (status == CDEM_OK)
     print_table(&list);
   if (status != CDEM_OK) {
@@ -157,4 +149,32 @@ int cmd_verify(int argc, char **argv) {
   }
   cdem_check_list_release(&list);
   return code;
+}
+
+int cmd_verify(int argc, char **argv) {
+  static const struct argp argp = {
+      option_table,
+      parse,
+      "[GROUP...]",
+      "Every claim of the program as a number beside its source.\v"
+      "Exit code 1 when a check fails. A check that could not run is named on stderr and is not "
+      "among the results.",
+      NULL,
+      NULL,
+      NULL};
+  settings s = {0};
+  command_parse(&argp, argc, argv, &s);
+  for (int i = 0; i < s.groups; i++)
+    check_group(s.group[i]);
+  if (s.markdown && (s.json || s.groups > 0))
+    command_usage("--markdown prints the page of all groups; leave %s out",
+                  s.json ? "--json" : s.group[0]);
+  if (s.list) {
+    if (s.markdown)
+      verify_print_page(&(cdem_check_list){0});
+    else
+      list_checks(&s);
+    return 0;
+  }
+  return verify(&s);
 }

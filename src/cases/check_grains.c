@@ -243,7 +243,7 @@ enum {
 #undef X
 };
 static const char *const law_names[] = {
-#define X(name) #name,
+#define X(identifier, name) name,
 #include "dem/laws.def"
 #undef X
 };

@@ -4,15 +4,11 @@
 
 /* ---- names of variants ---- */
 
-/* Names may hold a hyphen, which a word of C cannot: a new line of laws.def wants its name here. */
-static const char *const laws[] = {"linear", "hertz", "mindlin", "li-chu", "penalty", NULL};
-enum {
-  LAWS = 0
-#define X(name) +1
+static const char *const laws[] = {
+#define X(identifier, name) name,
 #include "dem/laws.def"
 #undef X
-};
-_Static_assert(sizeof laws / sizeof *laws == LAWS + 1, "one name a line of dem/laws.def");
+    NULL};
 
 static const char *const rollings[] = {
 #define ROLLING(name) #name,

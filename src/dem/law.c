@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define X(name) extern const cdem_law cdem_law_##name;
+#define X(identifier, name) extern const cdem_law cdem_law_##identifier;
 #include "dem/laws.def"
 #undef X
 #define ROLLING(name)  extern const cdem_resistance cdem_rolling_##name;
@@ -23,7 +23,7 @@ static const cdem_law_key_info keys[] = {
 };
 
 static const cdem_law *const laws[] = {
-#define X(name) &cdem_law_##name,
+#define X(identifier, name) &cdem_law_##identifier,
 #include "dem/laws.def"
 #undef X
 };

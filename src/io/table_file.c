@@ -132,12 +132,13 @@ cdem_status cdem_write_checks_json(FILE *stream, const cdem_check_list *list, cd
   fputc('[', stream);
   for (int64_t i = 0; i < list->checks; i++) {
     const cdem_check *check = &list->check[i];
-    const char *const text[3] = {check->group, check->name, check->source};
-    const char *const text_key[3] = {"group", "name", "source"};
+    const char *const text[4] = {check->group, check->name, check->source,
+                                 cdem_check_kind_find(check->kind)->text};
+    const char *const text_key[4] = {"group", "name", "source", "kind"};
     const double number[3] = {check->reference, check->value, check->tolerance};
     const char *const number_key[3] = {"reference", "value", "tolerance"};
     fputs(i > 0 ? ",\n {" : "\n {", stream);
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 4; k++) {
       fprintf(stream, "\"%s\": ", text_key[k]);
       cdem_json_text(stream, text[k]);
       fputs(", ", stream);

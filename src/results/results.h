@@ -56,12 +56,29 @@ static inline const cdem_value *cdem_table_at(const cdem_table *table, int64_t r
   return &table->value[row * table->columns + column];
 }
 
-/* One verification. Passes when |value - reference| <= tolerance (is_bound: value <= tolerance,
- * reference 0). */
+/* What gives a check its reference (check_kinds.def). Unstated is what a table forgot. */
+typedef enum {
+  CDEM_CHECK_UNSTATED,
+#define X(name, text, outside, meaning) CDEM_CHECK_##name,
+#include "results/check_kinds.def"
+#undef X
+  CDEM_CHECK_KINDS
+} cdem_check_kind;
+
+typedef struct {
+  const char *text, *meaning; /* "closed form"; one line about it */
+  bool outside;               /* the reference comes from outside of the program */
+} cdem_check_kind_words;
+
+/* Of every kind below CDEM_CHECK_KINDS. */
+const cdem_check_kind_words *cdem_check_kind_find(cdem_check_kind kind);
+
+/* One verification. Passes when |value - reference| <= tolerance; a bound is a reference of 0. */
 typedef struct {
   const char *group, *name; /* "springs", "hex8 edge closed form"; borrowed */
   const char *source;       /* where the reference comes from: "Wei et al. 2006, eq. 13" */
   double reference, value, tolerance;
+  cdem_check_kind kind;
 } cdem_check;
 
 /* Appended to by whoever verifies. */

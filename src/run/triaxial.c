@@ -83,8 +83,8 @@ static cdem_status add_usual(cdem_case_values *v, cdem_fault *fault) {
       {"dilation", "dilation", NULL, CDEM_TAKE_MAX, 1.0}};
   static const usual_curve curves[] = {
       {"stress_ratio", "Stress ratio against axial strain", "stress_ratio", "stress ratio"},
-      {"volumetric_strain", "Volumetric strain (contraction positive) against axial strain",
-       "volumetric_strain", "volumetric strain"}};
+      {"volumetric_strain", "Volumetric strain, contraction positive", "volumetric_strain",
+       "volumetric strain"}};
   for (size_t i = 0; i < sizeof results / sizeof *results; i++)
     CDEM_TRY(add_result(v, &results[i], fault));
   for (size_t i = 0; i < sizeof curves / sizeof *curves; i++)

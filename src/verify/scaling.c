@@ -7,31 +7,36 @@
 #include <stdio.h>
 #include <string.h>
 
-#define SOURCE        "Wang et al. 2024, eqs 6 to 9"
-#define THEORY        "docs/theory/scaling.md, "
-#define MEASURE(name) .measure = cdem_scaling_measure_##name
+#define SOURCE            "Wang et al. 2024, eqs 6 to 9"
+#define THEORY            "docs/theory/scaling.md, "
+#define MEASURE(of, name) .kind = CDEM_CHECK_##of, .measure = cdem_scaling_measure_##name
 
 /* A case by four choices of base ratios. */
 #define BITS(what, which)                                                                          \
-  {what ", h = 2: numbers that are off", SOURCE, 0, 0, MEASURE(bits), .parameter = 10 * (which)},  \
-      {what ", h = 4: numbers that are off", SOURCE,      0, 0, MEASURE(bits),                     \
+  {what ", h = 2: numbers that are off",                                                           \
+   SOURCE,                                                                                         \
+   0,                                                                                              \
+   0,                                                                                              \
+   MEASURE(SAME_BITS, bits),                                                                       \
+   .parameter = 10 * (which)},                                                                     \
+      {what ", h = 4: numbers that are off", SOURCE,      0, 0, MEASURE(SAME_BITS, bits),          \
        .parameter = 10 * (which) + 1,        .slow = true},                                        \
-      {what ", h = 1/2: numbers that are off", SOURCE,      0, 0, MEASURE(bits),                   \
+      {what ", h = 1/2: numbers that are off", SOURCE,      0, 0, MEASURE(SAME_BITS, bits),        \
        .parameter = 10 * (which) + 2,          .slow = true},                                      \
       {what ", length 2, time 4, density 1: numbers that are off",                                 \
        SOURCE,                                                                                     \
        0,                                                                                          \
        0,                                                                                          \
-       MEASURE(bits),                                                                              \
+       MEASURE(SAME_BITS, bits),                                                                   \
        .parameter = 10 * (which) + 3},                                                             \
   {                                                                                                \
-    what ", length 4, time 2, density 2: numbers that are off", SOURCE, 0, 0, MEASURE(bits),       \
-        .parameter = 10 * (which) + 4, .slow = true                                                \
+    what ", length 4, time 2, density 2: numbers that are off", SOURCE, 0, 0,                      \
+        MEASURE(SAME_BITS, bits), .parameter = 10 * (which) + 4, .slow = true                      \
   }
 
 static const cdem_verification checks[] = {
     {"factors of table 1, h = 3: worst relative error", "Wang et al. 2024, table 1", 0, 4e-16,
-     MEASURE(ratios)},
+     MEASURE(PUBLISHED, ratios)},
     BITS("elastic body", CDEM_SCALING_BODY),
     BITS("blocks that break and touch", CDEM_SCALING_FRACTURE),
     BITS("blocks that break, 3-D", CDEM_SCALING_SOLID),
@@ -44,29 +49,30 @@ static const cdem_verification checks[] = {
     /* A lattice in a periodic cell has one stress, whatever the size of its grains, if their
        stiffness follows: kn eps d/(d (1 - eps))^2. Balanced to 1e-5. */
     {"cubic lattice pressed together: stress over the closed form", THEORY "section 5", 1, 1e-4,
-     MEASURE(window), .parameter = 0},
+     MEASURE(CLOSED_FORM, window), .parameter = 0},
     {"the same coarse-grained by 2: stress over that of the fine one", THEORY "section 5", 1, 1e-6,
-     MEASURE(window), .parameter = 1},
+     MEASURE(LAW, window), .parameter = 1},
     {"the same without the rule: stress over that of the fine one", THEORY "section 5", 0.5, 1e-6,
-     MEASURE(window), .parameter = 2},
-    {"the same with Hertz' law without the rule", THEORY "section 5", 1, 1e-6, MEASURE(window),
+     MEASURE(CLOSED_FORM, window), .parameter = 2},
+    {"the same with Hertz' law without the rule", THEORY "section 5", 1, 1e-6, MEASURE(LAW, window),
      .parameter = 3},
     /* The waves at its start differ, and with them when the step is chosen anew. */
     {"steps of the coarse lattice over those of the fine one", THEORY "eq. (7)", 1, 0.01,
-     MEASURE(window), .parameter = 4},
-    {"the same at the same rate", THEORY "eq. (7)", 0.5, 0.005, MEASURE(window), .parameter = 5},
+     MEASURE(LAW, window), .parameter = 4},
+    {"the same at the same rate", THEORY "eq. (7)", 0.5, 0.005, MEASURE(LAW, window),
+     .parameter = 5},
     BITS("deformable grains, implicit", CDEM_SCALING_FDEM),
     BITS("deformable grains, explicit", CDEM_SCALING_EXPLICIT),
     BITS("triaxial test of spheres in a membrane", CDEM_SCALING_TRIAXIAL),
     BITS("triaxial test of deformable grains", CDEM_SCALING_DEFORMED),
     /* No power of two: rounding, which grows by collisions and cracks; so without them, or short.
      */
-    {"elastic body, h = 3: difference", THEORY "section 4", 0, 1e-9, MEASURE(rounding),
+    {"elastic body, h = 3: difference", THEORY "section 4", 0, 1e-9, MEASURE(LAW, rounding),
      .parameter = CDEM_SCALING_BODY},
-    {"static Cosserat body, h = 3: difference", THEORY "section 4", 0, 1e-9, MEASURE(rounding),
+    {"static Cosserat body, h = 3: difference", THEORY "section 4", 0, 1e-9, MEASURE(LAW, rounding),
      .parameter = CDEM_SCALING_STATIC},
     {"spheres between walls, Mindlin, h = 3: difference in 30 ms", THEORY "section 4", 0, 1e-9,
-     MEASURE(rounding), .parameter = CDEM_SCALING_SPHERES},
+     MEASURE(LAW, rounding), .parameter = CDEM_SCALING_SPHERES},
 };
 
 const cdem_verify_group cdem_verify_scaling = {

@@ -70,7 +70,8 @@ static cdem_status run_check(const cdem_verify_group *group, const cdem_verifica
                                      .source = check->source,
                                      .reference = check->reference,
                                      .value = value,
-                                     .tolerance = check->tolerance},
+                                     .tolerance = check->tolerance,
+                                     .kind = check->kind},
                         fault);
 }
 
@@ -92,6 +93,16 @@ cdem_status cdem_verify_run_group(const cdem_verify_group *group,
     CDEM_TRY(run_check(group, check, options, list, fault));
   }
   return CDEM_OK;
+}
+
+const cdem_verify_elsewhere *cdem_verify_elsewhere_at(int index) {
+  static const cdem_verify_elsewhere elsewhere[] = {
+#define X(test, claim, against) {test, claim, against},
+#include "verify/elsewhere.def"
+#undef X
+  };
+  const int count = sizeof elsewhere / sizeof elsewhere[0];
+  return index >= 0 && index < count ? &elsewhere[index] : NULL;
 }
 
 cdem_status cdem_verify_run(const char *const *groups, int count,

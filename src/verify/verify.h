@@ -1,6 +1,7 @@
 /* Room verify: every claim of the program as a named check that a command can run.
  *
- * A check is one number with its reference, its tolerance and the source of the reference. Checks
+ * A check is one number with its reference, its tolerance, the source of the reference and its kind
+ * (results/check_kinds.def: a closed form, a published number, a law, ...). Checks
  * are tables: one group = one file with one table, plus one line in verify.def. The function of a
  * check only measures; whether the number is right is decided from the table, so that `cdem verify
  * --list`, the JSON and the tests all show the same references. A check passes when
@@ -24,6 +25,7 @@ typedef struct {
   cdem_status (*measure)(int parameter, double *value, cdem_fault *fault);
   int parameter;
   bool slow; /* takes longer than a second; left out unless asked for */
+  cdem_check_kind kind;
 } cdem_verification;
 
 typedef struct {
@@ -35,6 +37,14 @@ typedef struct {
 /* Groups in the order of verify.def; NULL past the last. By name: NULL when there is none. */
 const cdem_verify_group *cdem_verify_group_at(int index);
 const cdem_verify_group *cdem_verify_group_find(const char *name);
+
+/* What no check measures: claims that a test of CTest holds, since it runs another program or takes
+ * too long; and claims that only a page shows (test NULL). Order of elsewhere.def; NULL past the
+ * last. */
+typedef struct {
+  const char *test, *claim, *against;
+} cdem_verify_elsewhere;
+const cdem_verify_elsewhere *cdem_verify_elsewhere_at(int index);
 
 typedef struct {
   bool slow; /* run the slow checks too */

@@ -367,19 +367,25 @@ static void the_schema_is_json(void **state) {
 
 /* ---- the page ---- */
 
-static void the_page_is_up_to_date(void **state) {
-  (void)state;
-  char *text = text_of(cdem_write_case_reference), *page = NULL;
+static void check_up_to_date(writer write, const char *name, const char *option) {
+  char path[512], *text = text_of(write), *page = NULL;
   size_t room = 0;
-  FILE *file = fopen(CDEM_DATA "/../docs/reference/case.md", "r");
+  snprintf(path, sizeof path, "%s/../docs/reference/%s", CDEM_DATA, name);
+  FILE *file = fopen(path, "r");
   assert_non_null(file);
   ssize_t got = getdelim(&page, &room, '\0', file);
   fclose(file);
   assert_true(got > 0);
   if (strcmp(text, page) != 0)
-    fail_msg("docs/reference/case.md is old: `cdem help case --markdown` writes the new one");
+    fail_msg("docs/reference/%s is old: `cdem help case %s` writes the new one", name, option);
   free(text);
   free(page);
+}
+
+static void the_pages_are_up_to_date(void **state) {
+  (void)state;
+  check_up_to_date(cdem_write_case_reference, "case.md", "--markdown");
+  check_up_to_date(cdem_write_case_schema, "case.schema.json", "--schema");
 }
 
 int main(int arguments, char **argument) {
@@ -392,7 +398,7 @@ int main(int arguments, char **argument) {
       cmocka_unit_test(a_full_disk),
       cmocka_unit_test(lack_of_memory),
       cmocka_unit_test(the_schema_is_json),
-      cmocka_unit_test(the_page_is_up_to_date),
+      cmocka_unit_test(the_pages_are_up_to_date),
   };
   if (arguments == 2 && strcmp(argument[1], "--schema") == 0)
     return (int)cdem_write_case_schema(stdout, NULL);

@@ -146,13 +146,18 @@ static void bits_scale(void **state) {
 
 static void table_is_whole(void **state) {
   (void)state;
-  const char *const name[] = {"square", "hexagonal", "cubic", "inward", "loose"};
-  for (int i = 0; i < 5; i++) {
+  static const char *const name[] = {
+#define X(name) #name,
+#include "dem/packings.def"
+#undef X
+  };
+  const int count = sizeof name / sizeof *name;
+  for (int i = 0; i < count; i++) {
     assert_string_equal(cdem_packing_at(i)->name, name[i]);
     assert_ptr_equal(cdem_packing_find(name[i]), cdem_packing_at(i));
     assert_true(strlen(cdem_packing_at(i)->help) > 10);
   }
-  assert_null(cdem_packing_at(5));
+  assert_null(cdem_packing_at(count));
   assert_null(cdem_packing_at(-1));
   assert_null(cdem_packing_find("random"));
 }

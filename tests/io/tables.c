@@ -66,7 +66,8 @@ static void checks(void **state) {
                                        .source = "Wei et al. 2006, eq. 13",
                                        .reference = 0.5,
                                        .value = 0.5,
-                                       .tolerance = 1e-12},
+                                       .tolerance = 1e-12,
+                                       .kind = CDEM_CHECK_CLOSED_FORM},
                           &fault));
   check_ok(cdem_check_add(
       &list, (cdem_check){.group = "g", .name = "n", .source = "s", .value = NAN}, &fault));
@@ -75,9 +76,11 @@ static void checks(void **state) {
   fclose(file);
   check_file(in_scratch("c.json"),
              "[\n {\"group\": \"springs\", \"name\": \"edge \\\"1-2\\\"\", \"source\": \"Wei et "
-             "al. 2006, eq. 13\", \"reference\": 0.5, \"value\": 0.5, \"tolerance\": "
+             "al. 2006, eq. 13\", \"kind\": \"closed form\", \"reference\": 0.5, \"value\": 0.5, "
+             "\"tolerance\": "
              "9.9999999999999998e-13, \"pass\": true},\n"
-             " {\"group\": \"g\", \"name\": \"n\", \"source\": \"s\", \"reference\": 0, "
+             " {\"group\": \"g\", \"name\": \"n\", \"source\": \"s\", \"kind\": \"unstated\", "
+             "\"reference\": 0, "
              "\"value\": null, \"tolerance\": 0, \"pass\": false}\n]\n");
   file = fopen("/dev/full", "w");
   check_fails(cdem_write_checks_json(file, &list, &fault), CDEM_FILE, "cannot write the checks");

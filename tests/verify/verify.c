@@ -64,12 +64,27 @@ static void tables_are_sound(void **state) {
       assert_non_null(check->measure);
       assert_true(check->source != NULL && check->source[0] != '\0');
       assert_true(check->tolerance >= 0.0);
+      if (check->kind == CDEM_CHECK_UNSTATED)
+        fail_msg("%s, %s: its kind is missing (results/check_kinds.def)", group->name, check->name);
       for (int j = 0; j < i; j++)
         assert_string_not_equal(check->name, group->check[j].name);
     }
   }
   assert_null(cdem_verify_group_at(-1));
   assert_null(cdem_verify_group_find("no such group"));
+}
+
+/* Most of what a program claims of itself proves little: a hundred references come from outside,
+ * and are asked without --slow. */
+static void a_hundred_references_come_from_outside(void **state) {
+  (void)state;
+  int outside = 0;
+  for (int g = 0; cdem_verify_group_at(g) != NULL; g++)
+    for (int i = 0; i < cdem_verify_group_at(g)->checks; i++) {
+      const cdem_verification *check = &cdem_verify_group_at(g)->check[i];
+      outside += cdem_check_kind_find(check->kind)->outside && !check->slow;
+    }
+  assert_true(outside >= 100);
 }
 
 static void unknown_groups_are_named(void **state) {
@@ -109,10 +124,10 @@ static void checks_that_cannot_run_are_told(void **state) {
   char reason[128] = "";
   int64_t done = 0;
   const cdem_verification table[] = {
-      {"wrong", "here", 0, 0.5, measure, 7, false},
-      {"broken", "here", 0, 0.5, measure, 1, false},
-      {"long", "here", 9, 0.5, measure, 9, true},
-      {"memory", "here", 0, 0.5, measure, 2, true},
+      {"wrong", "here", 0, 0.5, measure, 7, false, CDEM_CHECK_LAW},
+      {"broken", "here", 0, 0.5, measure, 1, false, CDEM_CHECK_LAW},
+      {"long", "here", 9, 0.5, measure, 9, true, CDEM_CHECK_LAW},
+      {"memory", "here", 0, 0.5, measure, 2, true, CDEM_CHECK_LAW},
   };
   cdem_verify_group group = {"test", "for this test", 4, table};
   cdem_verify_options options = {.context = reason, .skipped = remember_reason};
@@ -137,6 +152,7 @@ int main(void) {
       cmocka_unit_test(every_check_passes),
       cmocka_unit_test(reference_table_holds_the_depletion),
       cmocka_unit_test(tables_are_sound),
+      cmocka_unit_test(a_hundred_references_come_from_outside),
       cmocka_unit_test(unknown_groups_are_named),
       cmocka_unit_test(checks_that_cannot_run_are_told),
   };
