@@ -41,7 +41,7 @@ static void list_formats(void) {
   printf("output formats of `cdem springs` (endings)\n");
   for (int i = 0; cdem_springs_format_at(i) != NULL; i++) {
     const cdem_springs_format *format = cdem_springs_format_at(i);
-    printf("  %-5s %-12s %s\n", format->name, format->endings, format->help);
+    printf("  %-6s %-14s %s\n", format->name, format->endings, format->help);
   }
 }
 

@@ -87,12 +87,13 @@ static cdem_status write_springs(const springs_settings *s, things *t, int64_t *
   for (int i = 0; i < s->outputs; i++) {
     const cdem_springs_format *format = springs_format_of(s, s->output[i]);
     bool filtered = s->convert.class_mask != 0 || s->convert.form_mask != 0;
-    if (filtered && (strcmp(format->name, "mtx") == 0 || strcmp(format->name, "inp") == 0))
+    if (filtered && format->assembled)
       command_warn("'%s' holds the matrix of the filtered springs alone; such a network is not the "
                    "body and may "
                    "be unstable",
                    s->output[i]);
     CDEM_TRY(format->open(s->output[i], &t->model, &t->writer[i], fault));
+    t->writer[i]->carry = s->carry;
     sink[sinks++] = t->writer[i]->sink;
   }
   sink[sinks++] = (cdem_pair_sink){.context = written, .write = count_pairs};
@@ -107,9 +108,18 @@ static cdem_status write_springs(const springs_settings *s, things *t, int64_t *
 }
 
 /* Files appear when everything else has gone well. */
-static cdem_status publish(const springs_settings *s, things *t, cdem_fault *fault) {
-  for (int i = 0; i < s->outputs; i++)
+static cdem_status publish(const springs_settings *s, things *t, springs_report *report,
+                           cdem_fault *fault) {
+  for (int i = 0; i < s->outputs; i++) {
     CDEM_TRY(t->writer[i]->commit(t->writer[i], fault));
+    const cdem_carried *c = &t->writer[i]->carried;
+    report->carried[i] = *c;
+    if (c->cut > 0)
+      command_warn("'%s' lacks a part of %" PRId64 " of %" PRId64
+                   " pairs, %.3g of the network's norm; it is not the body (--carry exact refuses "
+                   "that)",
+                   s->output[i], c->cut, c->pairs, c->lost);
+  }
   if (s->figures != NULL)
     CDEM_TRY(springs_figure_write(t->figure, s->figures, fault));
   return CDEM_OK;
@@ -153,7 +163,7 @@ static cdem_status work(const springs_settings *s, things *t, springs_report *re
     CDEM_TRY(cdem_network_deplete(&t->model, &options, &out, &report->depletion, fault));
     report->depleted = true;
   }
-  return publish(s, t, fault);
+  return publish(s, t, report, fault);
 }
 
 int cmd_springs(int argc, char **argv) {

@@ -17,6 +17,7 @@ enum {
   OPTION_THICKNESS,
   OPTION_GROUP,
   OPTION_FORMAT,
+  OPTION_CARRY,
   OPTION_CLASS,
   OPTION_FORM,
   OPTION_FRAME,
@@ -55,6 +56,10 @@ static const struct argp_option option_table[] = {
     {"format", OPTION_FORMAT, "KIND", 0,
      "kind of output, whatever the ending; `-o -` is standard output, csv unless this says "
      "otherwise",
+     3},
+    {"carry", OPTION_CARRY, "all|exact|central", 0,
+     "lammps, yade: as much of each pair as the program can (default), an error unless that is "
+     "everything, or only the springs along the lines",
      3},
     {"class", OPTION_CLASS, "NAME[,NAME]", 0, "write only edge, face, body springs", 3},
     {"form", OPTION_FORM, "NAME[,NAME]", 0,
@@ -127,6 +132,14 @@ static cdem_frame_rule frame_of(const char *text) {
   if (strcmp(text, "none") != 0)
     command_usage("--frame %s: body, all or none is wanted", text);
   return CDEM_FRAME_NONE;
+}
+
+static cdem_carry carry_of(const char *text) {
+  static const char *const names[] = {"all", "exact", "central"};
+  for (int i = 0; i < 3; i++)
+    if (strcmp(text, names[i]) == 0)
+      return (cdem_carry)i;
+  command_usage("--carry %s: all, exact or central is wanted", text);
 }
 
 static cdem_plane plane_of(const char *text) {
@@ -277,6 +290,9 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     return 0;
   case OPTION_FORMAT:
     s->format = text;
+    return 0;
+  case OPTION_CARRY:
+    s->carry = carry_of(text);
     return 0;
   case OPTION_FIGURES:
     s->figures = text;

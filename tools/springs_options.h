@@ -3,6 +3,7 @@
 #define CDEM_TOOLS_SPRINGS_OPTIONS_H
 
 #include "command.h"
+#include "io/io.h"
 #include "network/deplete.h"
 
 enum { MOST_OUTPUTS = 8, MOST_GROUPS = 64, MOST_REMOVALS = 64 };
@@ -18,6 +19,7 @@ typedef struct {
   const char *group[MOST_GROUPS], *output[MOST_OUTPUTS];
   cdem_removal removal[MOST_REMOVALS];
   cdem_convert_options convert;
+  cdem_carry carry;
   int64_t mode_rows;
 } springs_settings;
 

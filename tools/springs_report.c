@@ -110,6 +110,23 @@ static void print_depletion(const cdem_depletion *d, FILE *stream) {
           d->safe ? "safe" : "NOT safe: put fracture on interfaces between blocks");
 }
 
+static void print_carried(const cdem_carried *c, FILE *stream) {
+  if (c->pairs == 0)
+    return;
+  fprintf(stream, "  of %" PRId64 " pairs, summed over the elements\n", c->pairs);
+  fprintf(stream, "    %12" PRId64 " are a spring along their line\n", c->along);
+  fprintf(stream, "    %12" PRId64 " are that and one stiffness across it\n", c->across);
+  fprintf(stream, "    %12" PRId64 " hold more", c->other);
+  if (c->looped > 0)
+    fprintf(stream, ", in a loop of the script");
+  if (c->cut > 0)
+    fprintf(stream,
+            "\n    %12" PRId64 " are cut: %.3g of the network's norm is lost; pair %" PRId64
+            "-%" PRId64 " loses %.3g of its own",
+            c->cut, c->lost, c->worst_node[0], c->worst_node[1], c->worst);
+  fputc('\n', stream);
+}
+
 void springs_report_text(const springs_report *report, FILE *stream) {
   const cdem_model *model = report->model;
   fprintf(stream, "%s: %" PRId32 " elements (", report->mesh, model->cells);
@@ -117,9 +134,11 @@ void springs_report_text(const springs_report *report, FILE *stream) {
     fprintf(stream, "%s%" PRId64 " %s", i > 0 ? ", " : "", model->kinds_of[i].cells,
             model->kinds_of[i].tabulation.element->name);
   fprintf(stream, "), %" PRId64 " node pairs\n", model->pairs);
-  for (int i = 0; i < report->outputs; i++)
+  for (int i = 0; i < report->outputs; i++) {
     fprintf(stream, "%s %s (%" PRId64 " pairs)\n", i == 0 ? "wrote" : "     ", report->output[i],
             report->pairs_written);
+    print_carried(&report->carried[i], stream);
+  }
   if (report->certified) {
     print_census(report, stream);
     print_certificate(&report->certificate, stream);
@@ -189,6 +208,25 @@ static void json_depletion(const cdem_depletion *d, FILE *stream) {
           d->rigid_lost);
 }
 
+/* One object an output, null for formats that hold everything. */
+static void json_carried(const springs_report *report, FILE *stream) {
+  fprintf(stream, "],\n  \"carried\": [");
+  for (int i = 0; i < report->outputs; i++) {
+    const cdem_carried *c = &report->carried[i];
+    fputs(i > 0 ? ", " : "", stream);
+    if (c->pairs == 0) {
+      fputs("null", stream);
+      continue;
+    }
+    fprintf(stream,
+            "{\"pairs\": %" PRId64 ", \"along\": %" PRId64 ", \"across\": %" PRId64
+            ", \"other\": %" PRId64 ", \"looped\": %" PRId64 ", \"cut\": %" PRId64 ", \"lost\": ",
+            c->pairs, c->along, c->across, c->other, c->looped, c->cut);
+    cdem_json_number(stream, c->lost);
+    fputs("}", stream);
+  }
+}
+
 void springs_report_json(const springs_report *report, FILE *stream) {
   const cdem_model *model = report->model;
   fprintf(stream, "{\n  \"mesh\": ");
@@ -203,6 +241,7 @@ void springs_report_json(const springs_report *report, FILE *stream) {
     fprintf(stream, "%s", i > 0 ? ", " : "");
     cdem_json_text(stream, report->output[i]);
   }
+  json_carried(report, stream);
   fprintf(stream, "],\n  \"seconds\": ");
   cdem_json_number(stream, report->seconds);
   if (report->certified)

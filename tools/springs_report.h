@@ -4,6 +4,7 @@
 
 #include "network/certificate.h"
 #include "network/deplete.h"
+#include "springs_options.h"
 
 #include <stdio.h>
 
@@ -16,7 +17,8 @@ typedef struct {
   int64_t pairs_written;
   int outputs;
   const char *const *output; /* [outputs] paths */
-  double seconds;            /* of the conversion */
+  cdem_carried carried[MOST_OUTPUTS];
+  double seconds; /* of the conversion */
 } springs_report;
 
 void springs_report_text(const springs_report *report, FILE *stream);

@@ -7,8 +7,8 @@
 #include <strings.h>
 
 static const cdem_springs_format *const formats[] = {
-    &cdem_springs_csv, &cdem_springs_hdf5, &cdem_springs_vtp,
-    &cdem_springs_vtu, &cdem_springs_mtx,  &cdem_springs_inp,
+    &cdem_springs_csv, &cdem_springs_hdf5, &cdem_springs_vtp,    &cdem_springs_vtu,
+    &cdem_springs_mtx, &cdem_springs_inp,  &cdem_springs_lammps, &cdem_springs_yade,
 };
 enum { FORMATS = sizeof formats / sizeof formats[0] };
 

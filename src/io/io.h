@@ -79,7 +79,7 @@ void cdem_output_discard(cdem_output **output);
 cdem_status cdem_write_text(const char *path, const char *text, int64_t length, cdem_fault *fault);
 
 /* ---- springs out: one writer a format (springs_csv.c, springs_hdf5.c, springs_vtk.c,
- * springs_mtx.c, springs_inp.c) ---- */
+ * springs_mtx.c, springs_inp.c, springs_lammps.c, springs_yade.c) ---- */
 
 typedef struct cdem_springs_writer cdem_springs_writer;
 typedef struct {
@@ -88,6 +88,7 @@ typedef struct {
   const char *help;
   cdem_status (*open)(const char *path, const cdem_model *model, cdem_springs_writer **writer,
                       cdem_fault *fault);
+  bool assembled; /* holds the sum over all elements: what is filtered out is missing in it */
 } cdem_springs_format;
 
 /* By name or by the ending of a path; NULL when there is none. */
@@ -95,8 +96,30 @@ const cdem_springs_format *cdem_springs_format_find(const char *name);
 const cdem_springs_format *cdem_springs_format_of(const char *path);
 const cdem_springs_format *cdem_springs_format_at(int index); /* NULL past the last */
 
+/* Programs of particles know forces along and across the line of a pair; the tensor of a pair may
+ * hold more. */
+typedef enum {
+  CDEM_CARRY_ALL,    /* as much of each pair as the program can */
+  CDEM_CARRY_EXACT,  /* CDEM_INPUT when that is not everything */
+  CDEM_CARRY_CENTRAL /* only the springs along the lines */
+} cdem_carry;
+
+/* What became of the pairs of the network, each summed over all elements. */
+typedef struct {
+  int64_t pairs;                /* 0: the format holds whatever there is */
+  int64_t along, across, other; /* nothing but a spring along the line; that and one stiffness
+                                 * across it; more than these */
+  int64_t looped;               /* of the others: carried by a loop in the file */
+  int64_t cut;                  /* pairs of which a part is not in the file */
+  double lost;                  /* Frobenius norm of what is not in the file, over that of all */
+  double worst;                 /* the same of the pair that loses most of its own norm ... */
+  int64_t worst_node[2];        /* ... with these tags */
+} cdem_carried;
+
 struct cdem_springs_writer {
-  cdem_pair_sink sink; /* feed it to cdem_network_convert */
+  cdem_carry carry;     /* set it before commit; formats that hold everything do not look at it */
+  cdem_carried carried; /* after commit */
+  cdem_pair_sink sink;  /* feed it to cdem_network_convert */
   cdem_status (*commit)(cdem_springs_writer *writer, cdem_fault *fault);
   void (*destroy)(cdem_springs_writer *writer); /* discards what was not committed */
 };

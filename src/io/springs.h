@@ -9,7 +9,7 @@
 #include "io/io.h"
 
 extern const cdem_springs_format cdem_springs_csv, cdem_springs_hdf5, cdem_springs_vtp,
-    cdem_springs_vtu, cdem_springs_mtx, cdem_springs_inp;
+    cdem_springs_vtu, cdem_springs_mtx, cdem_springs_inp, cdem_springs_lammps, cdem_springs_yade;
 
 /* What a spring is, in every file that holds springs without a manual beside it. */
 #define CDEM_SPRINGS_FORMULA                                                                       \

@@ -131,4 +131,4 @@ static cdem_status open_csv(const char *path, const cdem_model *model, cdem_spri
 }
 
 const cdem_springs_format cdem_springs_csv = {
-    "csv", ".csv", "one row per term of the spring tensor, 17 significant digits", open_csv};
+    "csv", ".csv", "one row per term of the spring tensor, 17 significant digits", open_csv, false};

@@ -512,4 +512,4 @@ static cdem_status open_hdf5(const char *path, const cdem_model *model,
 }
 
 const cdem_springs_format cdem_springs_hdf5 = {
-    "h5", ".h5 .hdf5", "compact HDF5, one row per pair, for large meshes", open_hdf5};
+    "h5", ".h5 .hdf5", "compact HDF5, one row per pair, for large meshes", open_hdf5, false};

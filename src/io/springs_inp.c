@@ -154,9 +154,8 @@ static void put_springs(const cdem_matrix_writer *matrix, const inp_list *list, 
   }
 }
 
-static cdem_status put_inp(const cdem_matrix_writer *matrix, cdem_fault *fault) {
+static cdem_status put_inp(cdem_matrix_writer *matrix, cdem_fault *fault) {
   const cdem_sparse *sparse = &matrix->sparse;
-  const cdem_mesh *mesh = matrix->model->mesh;
   const char *name = cdem_output_name(matrix->output);
   double largest = cdem_sparse_largest(sparse);
   inp_list list = {0};
@@ -164,13 +163,7 @@ static cdem_status put_inp(const cdem_matrix_writer *matrix, cdem_fault *fault) 
                "cannot write '%s': the assembled matrix is not symmetric (skew fraction %.3g), and "
                "SPRING2 elements are; write .mtx instead, or all pairs of the mesh",
                name, cdem_sparse_skew(sparse));
-  for (int32_t p = 0; p < sparse->nodes; p++) {
-    int64_t tag = mesh->node_tag[sparse->node[p]];
-    CDEM_REQUIRE(tag >= 1 && tag <= INT32_MAX, fault, CDEM_INPUT,
-                 "cannot write '%s': node tag %" PRId64
-                 " is not within 1 and %d, as CalculiX needs; renumber the mesh",
-                 name, tag, INT32_MAX);
-  }
+  CDEM_TRY(cdem_matrix_check_tags(matrix, "CalculiX", fault));
   cdem_status status = CDEM_OK;
   for (int32_t p = 0; p < sparse->nodes && status == CDEM_OK; p++)
     for (int a = 0; a < sparse->dofs && status == CDEM_OK; a++)
@@ -196,4 +189,4 @@ static cdem_status open_inp(const char *path, const cdem_model *model, cdem_spri
 }
 
 const cdem_springs_format cdem_springs_inp = {
-    "inp", ".inp", "CalculiX deck of SPRING2 elements, the assembled network", open_inp};
+    "inp", ".inp", "CalculiX deck of SPRING2 elements, the assembled network", open_inp, true};

@@ -15,15 +15,20 @@ typedef struct cdem_matrix_writer {
   const cdem_model *model;
   cdem_output *output;
   cdem_sparse sparse;
-  cdem_status (*put)(const struct cdem_matrix_writer *matrix, cdem_fault *fault);
+  cdem_status (*put)(struct cdem_matrix_writer *matrix, cdem_fault *fault);
 } cdem_matrix_writer;
 
 /* put: writes the assembled matrix to the output, at commit. */
 cdem_status cdem_matrix_writer_open(const char *path, const cdem_model *model,
-                                    cdem_status (*put)(const cdem_matrix_writer *, cdem_fault *),
+                                    cdem_status (*put)(cdem_matrix_writer *, cdem_fault *),
                                     cdem_springs_writer **writer, cdem_fault *fault);
 
 /* Symmetric up to CDEM_MATRIX_ROUNDING. */
 bool cdem_matrix_is_symmetric(const cdem_sparse *sparse);
+
+/* Are all node tags within 1 and INT32_MAX? CDEM_INPUT names the first that is not and `program`.
+ */
+cdem_status cdem_matrix_check_tags(const cdem_matrix_writer *matrix, const char *program,
+                                   cdem_fault *fault);
 
 #endif

@@ -1,4 +1,5 @@
-/* The assembled network matrix as Matrix Market, and the wrapper both matrix writers share. */
+/* The assembled network matrix as Matrix Market, and the wrapper all writers of the
+ * assembled network share. */
 #include "base/version.h"
 #include "io/output.h"
 #include "io/springs_matrix.h"
@@ -8,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* ---- shared with springs_inp.c ---- */
+/* ---- shared with the other writers of the assembled network ---- */
 
 static void destroy(cdem_springs_writer *writer) {
   cdem_matrix_writer *matrix = (cdem_matrix_writer *)writer;
@@ -24,7 +25,7 @@ static cdem_status commit(cdem_springs_writer *writer, cdem_fault *fault) {
 }
 
 cdem_status cdem_matrix_writer_open(const char *path, const cdem_model *model,
-                                    cdem_status (*put)(const cdem_matrix_writer *, cdem_fault *),
+                                    cdem_status (*put)(cdem_matrix_writer *, cdem_fault *),
                                     cdem_springs_writer **writer, cdem_fault *fault) {
   cdem_matrix_writer *matrix;
   *writer = NULL;
@@ -57,6 +58,18 @@ bool cdem_matrix_is_symmetric(const cdem_sparse *sparse) {
             return false;
     }
   return true;
+}
+
+cdem_status cdem_matrix_check_tags(const cdem_matrix_writer *matrix, const char *program,
+                                   cdem_fault *fault) {
+  for (int32_t p = 0; p < matrix->sparse.nodes; p++) {
+    int64_t tag = matrix->model->mesh->node_tag[matrix->sparse.node[p]];
+    CDEM_REQUIRE(tag >= 1 && tag <= INT32_MAX, fault, CDEM_INPUT,
+                 "cannot write '%s': node tag %" PRId64
+                 " is not within 1 and %d, as %s needs; renumber the mesh",
+                 cdem_output_name(matrix->output), tag, INT32_MAX, program);
+  }
+  return CDEM_OK;
 }
 
 /* ---- Matrix Market ---- */
@@ -113,7 +126,7 @@ static cdem_status put_entries(const cdem_matrix_writer *matrix, bool symmetric,
   return CDEM_OK;
 }
 
-static cdem_status put_mtx(const cdem_matrix_writer *matrix, cdem_fault *fault) {
+static cdem_status put_mtx(cdem_matrix_writer *matrix, cdem_fault *fault) {
   FILE *stream = cdem_output_stream(matrix->output);
   bool symmetric = cdem_matrix_is_symmetric(&matrix->sparse);
   int64_t rows = (int64_t)matrix->sparse.nodes * matrix->sparse.dofs, entries;
@@ -131,4 +144,4 @@ static cdem_status open_mtx(const char *path, const cdem_model *model, cdem_spri
 }
 
 const cdem_springs_format cdem_springs_mtx = {
-    "mtx", ".mtx", "Matrix Market file of the assembled network", open_mtx};
+    "mtx", ".mtx", "Matrix Market file of the assembled network", open_mtx, true};

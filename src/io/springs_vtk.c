@@ -274,6 +274,7 @@ static cdem_status open_vtu(const char *path, const cdem_model *model, cdem_spri
 }
 
 const cdem_springs_format cdem_springs_vtp = {
-    "vtp", ".vtp", "lines for ParaView, with stiffness and direction as cell data", open_vtp};
-const cdem_springs_format cdem_springs_vtu = {"vtu", ".vtu",
-                                              "the same lines as an unstructured grid", open_vtu};
+    "vtp", ".vtp", "lines for ParaView, with stiffness and direction as cell data", open_vtp,
+    false};
+const cdem_springs_format cdem_springs_vtu = {
+    "vtu", ".vtu", "the same lines as an unstructured grid", open_vtu, false};

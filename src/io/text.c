@@ -156,3 +156,10 @@ double cdem_get_real(const char *text, char **end) {
     freelocale(c);
   return value;
 }
+
+void cdem_stream_real(FILE *stream, const char *before, double value, const char *after) {
+  char text[CDEM_REAL_WIDTH];
+  fputs(before, stream);
+  fwrite(text, 1, (size_t)(cdem_put_real(text, value) - text), stream);
+  fputs(after, stream);
+}

@@ -8,6 +8,7 @@
 #define CDEM_IO_TEXT_H
 
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { CDEM_REAL_WIDTH = 26, CDEM_INTEGER_WIDTH = 21 };
@@ -18,6 +19,9 @@ char *cdem_put_integer(char *at, int64_t value);
 static inline char *cdem_put_text(char *at, const char *text) {
   return stpcpy(at, text);
 }
+
+/* `before`, the number, `after`. */
+void cdem_stream_real(FILE *stream, const char *before, double value, const char *after);
 
 /* The number at the start of `text` in C notation, *end behind it (= text when there is none). */
 double cdem_get_real(const char *text, char **end);
