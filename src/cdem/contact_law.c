@@ -168,7 +168,9 @@ void cdem_touch_update(const cdem_contact *contact, const cdem_contact_input *in
   t->friction = fmax(0.0, fmin(lost[0], t->stored));
   t->damping = fmax(0.0, fmin(lost[1], t->stored - t->friction));
   t->stored -= t->friction + t->damping;
-  double left = !placed && t->stored < shear ? fmax(0.0, t->stored) / shear : 1.0;
+  /* Without a shear spring there is nothing to give back, however little is stored. */
+  bool owes = !placed && shear > 0.0 && t->stored < shear;
+  double left = owes ? fmax(0.0, t->stored) / shear : 1.0;
   to_local(axes, now, t->stick);
   for (int i = 0; i < 3; i++)
     t->stick[i] *= sqrt(left);

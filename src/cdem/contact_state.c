@@ -355,6 +355,11 @@ cdem_status cdem_contact_restore(cdem_contact *contact, const cdem_state *state,
   double scalar[SCALARS];
   CDEM_TRY(cdem_state_get(state, "contact/counters", CDEM_ARRAY_INT64, COUNTERS, counter, fault));
   CDEM_TRY(cdem_state_get(state, "contact/scalars", CDEM_ARRAY_REAL, SCALARS, scalar, fault));
+  for (int k = 0; k < 3; k++)
+    CDEM_REQUIRE(counter[k] >= 0 && counter[k] < INT64_MAX / 2, fault, CDEM_INPUT,
+                 "contact: the checkpoint counts %" PRId64
+                 " of its versions, lists or contacts; the checkpoint does not belong to this case",
+                 counter[k]);
   free(s->slot_start);
   s->slot_start = NULL;
   s->edge_pairs = 0;

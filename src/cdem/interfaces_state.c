@@ -81,6 +81,9 @@ static cdem_status read_state(const cdem_interfaces *interfaces, const cdem_stat
   CDEM_TRY(cdem_state_get(state, "interfaces/pairs", CDEM_ARRAY_BYTE, pairs, kept->flags, fault));
   CDEM_TRY(cdem_state_get(state, "interfaces/energies", CDEM_ARRAY_REAL, 4, kept->energy, fault));
   CDEM_TRY(cdem_state_get(state, "interfaces/versions", CDEM_ARRAY_INT64, 2, kept->version, fault));
+  for (int v = 0; v < 2; v++)
+    CDEM_REQUIRE(kept->version[v] >= 0 && kept->version[v] < INT64_MAX / 2, fault, CDEM_INPUT,
+                 "the array 'interfaces/versions' of the checkpoint does not belong to this case");
   for (int64_t p = 0; p < pairs; p++) {
     bool none = interfaces->law_of[p] < 0;
     CDEM_REQUIRE(kept->flags[p] <= 2 && (!none || kept->flags[p] == 1), fault, CDEM_INPUT,

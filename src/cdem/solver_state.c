@@ -76,9 +76,9 @@ static void pack_counts(cdem_solver *solver, int64_t count[COUNTS], bool in) {
     s->base_steps = count[1];
     s->stale = count[2] != 0;
     if (interfaces != NULL)
-      s->interfaces_version = interfaces->version - count[3];
+      s->interfaces_version = interfaces->version - (count[3] != 0);
     if (contact != NULL)
-      s->contact_version = contact->version - count[4];
+      s->contact_version = contact->version - (count[4] != 0);
     return;
   }
   count[0] = solver->steps;
@@ -131,6 +131,18 @@ static cdem_status check_fits(const cdem_solver *solver, const cdem_state *state
   return CDEM_OK;
 }
 
+/* The numbers that decide how the run goes on. */
+static cdem_status check_clock(const double real[REALS], const int64_t count[COUNTS],
+                               cdem_fault *fault) {
+  CDEM_REQUIRE(real[0] >= 0.0 && real[1] >= 0.0 && count[0] >= 0 && count[0] < INT64_MAX / 2 &&
+                   count[1] >= 0 && count[1] <= count[0],
+               fault, CDEM_INPUT,
+               "the checkpoint stands at t = %g s after %lld steps of %g s, which cannot be; it "
+               "does not belong to this case",
+               real[0], (long long)count[0], real[1]);
+  return CDEM_OK;
+}
+
 cdem_status cdem_solver_restore(cdem_solver *solver, const cdem_state *state, cdem_fault *fault) {
   cdem_solver_store *s = solver->store;
   entry list[FIXED_ENTRIES], plate[PLATE_ENTRIES];
@@ -139,6 +151,7 @@ cdem_status cdem_solver_restore(cdem_solver *solver, const cdem_state *state, cd
   CDEM_TRY(check_fits(solver, state, fault));
   CDEM_TRY(cdem_state_get(state, "solver/reals", CDEM_ARRAY_REAL, REALS, real, fault));
   CDEM_TRY(cdem_state_get(state, "solver/counts", CDEM_ARRAY_INT64, COUNTS, count, fault));
+  CDEM_TRY(check_clock(real, count, fault));
   int entries = list_fixed(solver, list);
   for (int k = 0; k < entries; k++)
     CDEM_TRY(cdem_state_get(state, list[k].name, list[k].type, list[k].count, list[k].data, fault));

@@ -211,10 +211,26 @@ cdem_status cdem_bonds_save(const cdem_dem *dem, cdem_state *state, cdem_fault *
                         core->bonds * (int64_t)sizeof *core->bond, core->bond, fault);
 }
 
+/* Owners, pairs and far rows follow from the ids when the lists are made again. */
+static bool can_be(const cdem_dem_store *s, const cdem_bond_state *bond) {
+  bool good = bond->id[0] >= 0 && bond->id[0] < s->grains && bond->id[1] >= 0 &&
+              bond->id[1] < s->grains && bond->id[0] != bond->id[1] && bond->law >= 0 &&
+              bond->law < s->options.bond_laws && bond->image < 27 && bond->holds <= 1 &&
+              bond->rest > 0.0 && isfinite(bond->rest);
+  for (int k = 0; k < CDEM_BOND_HISTORY; k++)
+    good = good && isfinite(bond->stretch[k]);
+  return good;
+}
+
 cdem_status cdem_bonds_restore(cdem_dem *dem, const cdem_state *state, cdem_fault *fault) {
   cdem_dem_core *core = dem->store->core;
   CDEM_TRY(cdem_state_get(state, "dem/bonds", CDEM_ARRAY_BYTE,
                           core->bonds * (int64_t)sizeof *core->bond, core->bond, fault));
+  for (int64_t b = 0; b < core->bonds; b++)
+    CDEM_REQUIRE(can_be(dem->store, &core->bond[b]), fault, CDEM_INPUT,
+                 "bond %lld of the checkpoint cannot be: it joins grains %d and %d by law %d; the "
+                 "checkpoint does not belong to this case",
+                 (long long)b, core->bond[b].id[0], core->bond[b].id[1], core->bond[b].law);
   cdem_bonds_update(dem);
   return CDEM_OK;
 }

@@ -94,6 +94,8 @@ static cdem_status check(const cdem_dem_store *s, const saved_list *l, int32_t *
       return no_list(fault, "does not name every grain once");
     order[l->id[i]] = i;
   }
+  if (l->builds < 0 || l->builds >= INT64_MAX / 2)
+    return no_list(fault, "was made a number of times that cannot be");
   if (l->start[0] != 0 || l->start[s->grains] != l->pairs)
     return no_list(fault, "has another number of pairs than its rows");
   for (int64_t i = 0; i < s->grains; i++)

@@ -125,6 +125,18 @@ cdem_status cdem_dem_save(const cdem_dem *dem, cdem_state *state, cdem_fault *fa
   return core->bonds > 0 ? cdem_bonds_save(dem, state, fault) : CDEM_OK;
 }
 
+/* The numbers that decide how the run goes on. */
+static cdem_status check_clock(const double real[REALS], const int64_t count[COUNTS],
+                               cdem_fault *fault) {
+  CDEM_REQUIRE(real[0] >= 0.0 && real[1] > 0.0 && count[0] >= 0 && count[0] < INT64_MAX / 2 &&
+                   count[1] >= 0 && count[1] <= count[0] && count[2] >= -1 && count[2] <= count[0],
+               fault, CDEM_INPUT,
+               "the checkpoint stands at t = %g s after %lld steps of %g s, which cannot be; it "
+               "does not belong to this case",
+               real[0], (long long)count[0], real[1]);
+  return CDEM_OK;
+}
+
 /* What the constant arrays are in the restored order. */
 static cdem_status order_again(cdem_dem *dem, cdem_fault *fault) {
   cdem_dem_store *s = dem->store;
@@ -151,6 +163,7 @@ static cdem_status restore(cdem_dem *dem, const cdem_state *state, cdem_fault *f
   entry list[ENTRIES];
   CDEM_TRY(cdem_state_get(state, "dem/counts", CDEM_ARRAY_INT64, COUNTS, count, fault));
   CDEM_TRY(cdem_state_get(state, "dem/reals", CDEM_ARRAY_REAL, REALS, real, fault));
+  CDEM_TRY(check_clock(real, count, fault));
   core->seen_holds = count[5] != 0;
   if (count[4] != 0)
     CDEM_TRY(cdem_dem_want_applied(dem, fault));

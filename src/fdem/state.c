@@ -101,6 +101,12 @@ cdem_status cdem_fdem_restore(cdem_fdem *fdem, const cdem_state *state, cdem_fau
   CDEM_TRY(cdem_state_get(state, "fdem/steps", CDEM_ARRAY_INT64, 2, count, fault));
   for (int i = 0; i < FIELDS; i++)
     CDEM_TRY(cdem_state_get(state, all[i].name, CDEM_ARRAY_REAL, all[i].count, all[i].data, fault));
+  CDEM_REQUIRE(number[0] >= 0.0 && number[1] > 0.0 && count[0] >= 0 && count[0] < INT64_MAX / 2 &&
+                   count[1] >= 0 && count[1] <= count[0],
+               fault, CDEM_INPUT,
+               "the checkpoint stands at t = %g s after %lld steps of %g s, which cannot be; it "
+               "does not belong to this case",
+               number[0], (long long)count[0], number[1]);
   walk(fdem, number, false);
   fdem->steps = count[0];
   s->base_steps = count[1];

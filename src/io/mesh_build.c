@@ -114,9 +114,28 @@ cdem_status cdem_builder_named(cdem_mesh_builder *builder, const char *name, int
   return status;
 }
 
+static int compare_ids(const void *a, const void *b) {
+  int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
+  return (x > y) - (x < y);
+}
+
+/* Each cell once. */
+static void drop_repeats(cdem_build_group *group) {
+  int64_t kept = 1;
+  qsort(group->cell, (size_t)group->cells, sizeof *group->cell, compare_ids);
+  for (int64_t i = 1; i < group->cells; i++)
+    if (group->cell[i] != group->cell[kept - 1])
+      group->cell[kept++] = group->cell[i];
+  group->cells = kept;
+}
+
+/* A set that names a set twice doubles it, and a deck of forty such lines would fill any memory: so
+ * repeats are dropped whenever there are more members than twice the cells. */
 cdem_status cdem_builder_add_members(cdem_mesh_builder *builder, int64_t index, int32_t first,
                                      int64_t count, cdem_fault *fault) {
   cdem_build_group *group = &builder->group[index];
+  if (group->cells > 0 && group->cells + count > 2 * (int64_t)builder->mesh.cells)
+    drop_repeats(group);
   CDEM_TRY(
       cdem_grow(&group->cell, &group->capacity, group->cells + count, sizeof *group->cell, fault));
   for (int64_t i = 0; i < count; i++)

@@ -10,6 +10,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -179,6 +180,7 @@ typedef struct {
   cdem_state *state;
   cdem_fault *fault;
   cdem_status status;
+  hsize_t bytes; /* of the file */
 } state_reader;
 
 /* What HDF5 cannot read in a file whose checksum is right. */
@@ -207,6 +209,13 @@ static bool array_type(hid_t type, cdem_array_type *out) {
   return true;
 }
 
+/* Can the file hold so many? HDF5 makes up what was announced and never written. */
+static bool can_hold(const state_reader *reader, hid_t set, cdem_array_type type, hsize_t count) {
+  enum { DENSEST = 1032 }; /* deflate packs at most so many bytes into one */
+  hsize_t stored = H5Dget_storage_size(set);
+  return stored <= reader->bytes && count / DENSEST <= stored / cdem_array_size(type) + 1;
+}
+
 static cdem_status read_array(const state_reader *reader, const char *name, hid_t set) {
   hid_t space = H5Dget_space(set), type = H5Dget_type(set);
   cdem_array_type numbers = CDEM_ARRAY_BYTE;
@@ -222,6 +231,11 @@ static cdem_status read_array(const state_reader *reader, const char *name, hid_
                        "cannot read '%s': '%s' is no list of numbers of a known type; it was not "
                        "written by cdem",
                        reader->path, name);
+  else if (!can_hold(reader, set, numbers, count))
+    status = cdem_fail(reader->fault, CDEM_INPUT,
+                       "cannot read '%s': '%s' announces %" PRIu64
+                       " elements, which the file is too short for; it was not written by cdem",
+                       reader->path, name, (uint64_t)count);
   void *data = status == CDEM_OK
                    ? cdem_allocate((int64_t)count, cdem_array_size(numbers), reader->fault)
                    : NULL;
@@ -283,7 +297,11 @@ static cdem_status check_format(const state_reader *reader, hid_t file) {
                reader->path);
   int version = 0;
   hid_t attribute = H5Aopen(file, "format_version", H5P_DEFAULT);
-  bool good = attribute >= 0 && H5Aread(attribute, H5T_NATIVE_INT, &version) >= 0;
+  hid_t space = attribute >= 0 ? H5Aget_space(attribute) : (hid_t)-1;
+  bool good = space >= 0 && H5Sget_simple_extent_npoints(space) == 1 &&
+              H5Aread(attribute, H5T_NATIVE_INT, &version) >= 0;
+  if (space >= 0)
+    H5Sclose(space);
   if (attribute >= 0)
     H5Aclose(attribute);
   if (!good)
@@ -295,13 +313,14 @@ static cdem_status check_format(const state_reader *reader, hid_t file) {
   return CDEM_OK;
 }
 
-static cdem_status check_bytes(const state_reader *reader, int descriptor) {
+static cdem_status check_bytes(state_reader *reader, int descriptor) {
   static const char signature[8] = "\211HDF\r\n\032\n";
   char begin[8] = "", trailer[TRAILER_LENGTH + 1] = "", expected[TRAILER_LENGTH + 1];
   struct stat facts;
   CDEM_REQUIRE(fstat(descriptor, &facts) == 0 && !S_ISDIR(facts.st_mode), reader->fault, CDEM_FILE,
                "cannot read '%s': it is a directory", reader->path);
   int64_t bytes = (int64_t)facts.st_size - TRAILER_LENGTH;
+  reader->bytes = (hsize_t)facts.st_size;
   CDEM_REQUIRE(pread(descriptor, begin, sizeof begin, 0) == sizeof begin &&
                    memcmp(begin, signature, sizeof begin) == 0,
                reader->fault, CDEM_INPUT,
@@ -344,7 +363,7 @@ static cdem_status read_file(state_reader *reader) {
 
 cdem_status cdem_read_state(const char *path, cdem_state *state, cdem_fault *fault) {
   *state = (cdem_state){0};
-  state_reader reader = {path, state, fault, CDEM_OK};
+  state_reader reader = {path, state, fault, CDEM_OK, 0};
   cdem_hdf5_silence before = cdem_hdf5_silence_begin();
   cdem_status status = read_file(&reader);
   cdem_hdf5_silence_end(before);

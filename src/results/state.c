@@ -1,6 +1,7 @@
 #include "results/state.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -96,6 +97,17 @@ static cdem_status find_typed(const cdem_state *state, const char *name, cdem_ar
   return CDEM_OK;
 }
 
+/* No solver goes on from a number that is none. */
+static cdem_status check_numbers(const cdem_array *array, cdem_fault *fault) {
+  const double *value = array->data;
+  for (int64_t i = 0; array->type == CDEM_ARRAY_REAL && i < array->count; i++)
+    CDEM_REQUIRE(isfinite(value[i]), fault, CDEM_INPUT,
+                 "the array '%s' of the checkpoint holds %g at place %" PRId64
+                 ", where a finite number is wanted; take an earlier checkpoint or start anew",
+                 array->name, value[i], i);
+  return CDEM_OK;
+}
+
 cdem_status cdem_state_get(const cdem_state *state, const char *name, cdem_array_type type,
                            int64_t count, void *data, cdem_fault *fault) {
   const cdem_array *array;
@@ -104,6 +116,7 @@ cdem_status cdem_state_get(const cdem_state *state, const char *name, cdem_array
                "the array '%s' of the checkpoint has %" PRId64 " elements, not %" PRId64
                "; it does not belong to this case",
                name, array->count, count);
+  CDEM_TRY(check_numbers(array, fault));
   if (count > 0)
     memcpy(data, array->data, (size_t)count * cdem_array_size(type));
   return CDEM_OK;
@@ -113,6 +126,7 @@ cdem_status cdem_state_take(const cdem_state *state, const char *name, cdem_arra
                             int64_t *count, void *data, cdem_fault *fault) {
   const cdem_array *array;
   CDEM_TRY(find_typed(state, name, type, &array, fault));
+  CDEM_TRY(check_numbers(array, fault));
   void *copy = cdem_allocate(array->count, cdem_array_size(type), fault);
   if (copy == NULL)
     return CDEM_MEMORY;

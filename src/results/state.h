@@ -47,7 +47,7 @@ cdem_status cdem_state_add_owned(cdem_state *state, const char *name, cdem_array
 /* NULL when there is none. */
 const cdem_array *cdem_state_find(const cdem_state *state, const char *name);
 /* Copies an array of exactly this type and length out; CDEM_INPUT names what does not fit ("the
- * checkpoint does not belong to this case"). */
+ * checkpoint does not belong to this case"), and a number that is not finite. */
 cdem_status cdem_state_get(const cdem_state *state, const char *name, cdem_array_type type,
                            int64_t count, void *data, cdem_fault *fault);
 /* The same for an array whose length only the state knows: `data` is the address of a pointer,

@@ -197,6 +197,16 @@ static void set_in_motion(cdem_run_grains *g) {
 
 /* ---- checkpoints ---- */
 
+static cdem_status check_restored(const cdem_run_grains *g, cdem_fault *fault) {
+  int64_t materials = cdem_run_grains_values(g)->grains.materials.count;
+  CDEM_TRY(cdem_grains_check(&g->grains, fault));
+  for (int64_t i = 0; i < g->grains.grains; i++)
+    CDEM_REQUIRE(g->case_material[i] >= 0 && g->case_material[i] < materials, fault, CDEM_INPUT,
+                 "grain %lld has material %d; grains.materials has %d, counted from 0",
+                 (long long)i, (int)g->case_material[i], (int)materials);
+  return CDEM_OK;
+}
+
 static cdem_status restore(cdem_run_grains *g, const cdem_state *state, cdem_fault *fault) {
   cdem_grains *grains = &g->grains;
   int64_t count = 0;
@@ -222,7 +232,10 @@ static cdem_status restore(cdem_run_grains *g, const cdem_state *state, cdem_fau
   CDEM_TRY(cdem_state_get(state, "grains/box", CDEM_ARRAY_REAL, 6, box, fault));
   memcpy(g->low, box, sizeof g->low);
   memcpy(g->high, box + 3, sizeof g->high);
-  return CDEM_OK;
+  cdem_status status = check_restored(g, fault);
+  if (status == CDEM_INPUT)
+    cdem_fault_prefix(fault, "the checkpoint does not belong to this case");
+  return status;
 }
 
 cdem_status cdem_run_grains_save(const cdem_run_grains *g, cdem_state *state, cdem_fault *fault) {

@@ -77,6 +77,12 @@ static cdem_status restore(cdem_run_output *output, const cdem_state *state, cde
                "%s/case.yaml is not the case of the checkpoint beside it: it was changed since; "
                "start a new run",
                output->options->folder);
+  for (int k = 0; k < COUNTS; k++) /* rows and frames are counted up; the last two may be -1 */
+    CDEM_REQUIRE(
+        counts[k] >= (k < 5 ? 0 : -1) && (k > 1 || counts[k] < INT64_MAX / 2), fault, CDEM_INPUT,
+        "the array 'run/counts' of the checkpoint holds %lld at place %d, which cannot be; "
+        "start a new run",
+        (long long)counts[k], k);
   output->setup->case_sum = (uint64_t)sums[0];
   counters_in(counts, &output->counters);
   output->counters.peak = reals[0];

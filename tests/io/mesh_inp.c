@@ -45,6 +45,23 @@ static void a_deck_with_its_oddities(void **state) {
   cdem_mesh_release(&mesh);
 }
 
+/* Forty sets, each of which names the one before eight times, hold one element each. */
+static void sets_of_sets_do_not_multiply(void **state) {
+  (void)state;
+  enum { SETS = 40 };
+  char text[SETS * 80], *out = text;
+  out += sprintf(out, "*NODE\n1,0,0\n2,1,0\n3,1,1\n*ELEMENT,TYPE=CPE3,ELSET=s0\n7,1,2,3\n");
+  for (int i = 1; i <= SETS; i++) {
+    out += sprintf(out, "*ELSET,ELSET=s%d\n", i);
+    for (int k = 0; k < 8; k++)
+      out += sprintf(out, "s%d%s", i - 1, k < 7 ? "," : "\n");
+  }
+  cdem_mesh mesh = read_mesh(write_text("sets.inp", text));
+  assert_int_equal(mesh.groups, SETS + 1);
+  assert_int_equal(cdem_mesh_find_group(&mesh, "s40")->cells, 1);
+  cdem_mesh_release(&mesh);
+}
+
 /* One element of each type on the reference cube; deck order of the mid nodes from the Abaqus
  * manual: edges of the bottom, of the top, uprights (hexahedron); of the base, then to the apex
  * (tetrahedron). */
@@ -250,6 +267,7 @@ static void allocation_failures_leave_nothing(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_deck_with_its_oddities),
+      cmocka_unit_test(sets_of_sets_do_not_multiply),
       cmocka_unit_test(every_type_is_numbered_by_gmsh_afterwards),
       cmocka_unit_test(errors_name_line_and_cause),
       cmocka_unit_test(cut_decks_do_not_crash),

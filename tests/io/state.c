@@ -236,6 +236,32 @@ static void put_foreign(const char *path, const char *name, int rank, hid_t type
   put_sum(path);
 }
 
+/* A length without elements, and more numbers of the version than there is room for. */
+static void what_is_announced_must_be_there(void **unused) {
+  (void)unused;
+  cdem_fault fault = {0};
+  cdem_state state;
+  const char *path = in_scratch("announced.h5");
+  const hsize_t many = (hsize_t)1 << 40, some = 4096;
+  hid_t file = open_bare(path), space = H5Screate_simple(1, &many, NULL);
+  H5Dclose(
+      H5Dcreate2(file, "long", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  H5Sclose(space);
+  H5Fclose(file);
+  put_sum(path);
+  check_fails(cdem_read_state(path, &state, &fault), CDEM_INPUT,
+              "'long' announces 1099511627776 elements, which the file is too short for");
+  file = open_bare(path);
+  space = H5Screate_simple(1, &some, NULL);
+  H5Adelete(file, "format_version");
+  H5Aclose(H5Acreate2(file, "format_version", H5T_NATIVE_INT, space, H5P_DEFAULT, H5P_DEFAULT));
+  H5Sclose(space);
+  H5Fclose(file);
+  put_sum(path);
+  check_fails(cdem_read_state(path, &state, &fault), CDEM_INPUT,
+              "the HDF5 library failed at format_version");
+}
+
 static void foreign_files_are_refused(void **unused) {
   (void)unused;
   cdem_fault fault = {0};
@@ -352,6 +378,7 @@ int main(void) {
       cmocka_unit_test(damaged_meshes_are_refused),
       cmocka_unit_test(damage_is_found),
       cmocka_unit_test(foreign_files_are_refused),
+      cmocka_unit_test(what_is_announced_must_be_there),
       cmocka_unit_test(the_old_state_stays_when_the_disk_is_full),
       cmocka_unit_test(memory_runs_out),
   };

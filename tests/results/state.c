@@ -7,7 +7,7 @@ static void arrays_are_borrowed_copied_and_found(void **unused) {
   (void)unused;
   cdem_fault fault = {0};
   cdem_state state = {0};
-  double velocity[3] = {1.0, -0.0, NAN};
+  double velocity[3] = {1.0, -0.0, 1e-320};
   int64_t step = 12;
   check_ok(cdem_state_add(&state, "solver/velocity", CDEM_ARRAY_REAL, 3, velocity, &fault));
   check_ok(cdem_state_add_copy(&state, "solver/step", CDEM_ARRAY_INT64, 1, &step, &fault));
@@ -34,6 +34,12 @@ static void arrays_are_borrowed_copied_and_found(void **unused) {
   assert_int_equal(count, 0);
   assert_non_null(none);
   free(none);
+  velocity[2] = NAN; /* borrowed */
+  check_fails(cdem_state_get(&state, "solver/velocity", CDEM_ARRAY_REAL, 3, back, &fault),
+              CDEM_INPUT, "'solver/velocity' of the checkpoint holds nan at place 2");
+  velocity[2] = -INFINITY;
+  check_fails(cdem_state_take(&state, "solver/velocity", CDEM_ARRAY_REAL, &count, &taken, &fault),
+              CDEM_INPUT, "holds -inf at place 2");
   cdem_state_release(&state);
   assert_int_equal(state.arrays, 0);
   cdem_state_release(&state);
