@@ -194,7 +194,7 @@ static cdem_status convert_chunk(const conversion *task, int32_t first, int32_t 
   int64_t total = 0;
   for (int kind = 0; kind < model->kinds; kind++) {
     int32_t index[CDEM_LANES];
-    int64_t place[CDEM_LANES];
+    int64_t place[CDEM_LANES] = {0};
     int filled = 0;
     total = 0;
     for (int32_t i = first; i < last; i++) {
