@@ -1,6 +1,7 @@
 /* Blocks: choosing cells, matching faces, finding what hangs together. */
 #include "cdem/blocks.h"
 
+#include "base/sets.h"
 #include "cdem/blocks_cut.h"
 
 #include <inttypes.h>
@@ -230,17 +231,15 @@ static cdem_status mark_group(const cdem_cut *cut, const char *name, const char 
 
 /* Blocks by union of cells over the faces that hold; numbered by their first cell. */
 static void join_cells(cdem_cut *cut, const int32_t *label) {
-  for (int32_t i = 0; i < cut->chosen; i++)
-    cut->block[i] = i;
+  cdem_sets_init(cut->block, 0, cut->chosen);
   for (int32_t s = 0; s < cut->slot_start[cut->chosen]; s++) {
     bool holds = holds_together(cut, label, s);
     cut->cut[s] = cut->mate[s] >= 0 && !holds;
     if (holds && s < cut->mate[s])
-      cdem_cut_join(cut->block, cut->slot_cell[s], cut->slot_cell[cut->mate[s]]);
+      cdem_sets_join(cut->block, cut->slot_cell[s], cut->slot_cell[cut->mate[s]]);
   }
-  for (int32_t i = 0; i < cut->chosen; i++)
-    cut->block[i] = cdem_cut_root(cut->block, i);
-  /* A root is the first of its tree, so that its number is known when the others ask. */
+  cdem_sets_label(cut->block, 0, cut->chosen);
+  /* A root is the first of its set, so that its number is known when the others ask. */
   for (int32_t i = 0; i < cut->chosen; i++)
     cut->block[i] = cut->block[i] == i ? cut->blocks++ : cut->block[cut->block[i]];
 }

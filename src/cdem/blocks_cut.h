@@ -44,24 +44,6 @@ static inline const cdem_shape_info *cdem_cut_info(const cdem_cut *cut, int32_t 
   return cdem_shape_get((cdem_shape)cut->mesh->cell_shape[cut->cell[position]]);
 }
 
-/* Union-find with path halving; the root is the smallest of its tree. */
-static inline int32_t cdem_cut_root(int32_t *parent, int32_t id) {
-  while (parent[id] != id) {
-    parent[id] = parent[parent[id]];
-    id = parent[id];
-  }
-  return id;
-}
-
-static inline void cdem_cut_join(int32_t *parent, int32_t a, int32_t b) {
-  a = cdem_cut_root(parent, a);
-  b = cdem_cut_root(parent, b);
-  if (a < b)
-    parent[b] = a;
-  else
-    parent[a] = b;
-}
-
 /* A group that must be there; the message lists those there are. */
 cdem_status cdem_cut_group(const cdem_mesh *mesh, const char *name, const cdem_group **group,
                            cdem_fault *fault);

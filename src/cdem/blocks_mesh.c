@@ -1,4 +1,5 @@
 /* Blocks: the cut mesh, its groups, its face pairs and facets. */
+#include "base/sets.h"
 #include "cdem/blocks_cut.h"
 
 #include <inttypes.h>
@@ -22,8 +23,7 @@ static int32_t new_node(const cdem_cut *cut, int32_t position, int32_t node) {
 
 /* Corners at one node are one copy where uncut faces join their cells. */
 static void join_corners(const cdem_cut *cut, int32_t *parent) {
-  for (int64_t c = 0; c < cut->corner_start[cut->chosen]; c++)
-    parent[c] = (int32_t)c;
+  cdem_sets_init(parent, 0, (int32_t)cut->corner_start[cut->chosen]);
   for (int32_t s = 0; s < cut->slot_start[cut->chosen]; s++) {
     if (cut->cut[s] || cut->mate[s] < s) /* -1: on the surface */
       continue;
@@ -32,8 +32,8 @@ static void join_corners(const cdem_cut *cut, int32_t *parent) {
     const int8_t *local;
     int corners = cdem_cut_face(cdem_cut_info(cut, a), (int)(s - cut->slot_start[a]), &local);
     for (int k = 0; k < corners; k++)
-      cdem_cut_join(parent, (int32_t)(cut->corner_start[a] + local[k]),
-                    (int32_t)(cut->corner_start[b] + local_node(cut, b, node[local[k]])));
+      cdem_sets_join(parent, (int32_t)(cut->corner_start[a] + local[k]),
+                     (int32_t)(cut->corner_start[b] + local_node(cut, b, node[local[k]])));
   }
 }
 
@@ -45,7 +45,7 @@ static int32_t number_corners(cdem_cut *cut, int32_t *parent, int32_t *start) {
     for (int32_t i = 0; i < cut->chosen; i++) {
       const int32_t *node = cdem_mesh_cell(mesh, cut->cell[i]);
       for (int64_t c = cut->corner_start[i]; c < cut->corner_start[i + 1]; c++) {
-        int32_t root = cdem_cut_root(parent, (int32_t)c);
+        int32_t root = cdem_sets_root(parent, (int32_t)c);
         int32_t own = node[c - cut->corner_start[i]];
         if (pass == 0)
           start[own + 1] += root == c;

@@ -1,5 +1,6 @@
 /* Topology of the active surface: what is bonded, which facets are neighbours, where it has sharp
  * convex edges. Angles are those of the reference configuration. O(facets + pairs). */
+#include "base/sets.h"
 #include "cdem/contact_store.h"
 
 #include <math.h>
@@ -30,47 +31,26 @@ void cdem_contact_buckets(int64_t count, const uint64_t *hash, int64_t buckets, 
   start[0] = 0;
 }
 
-static int32_t root_of(int32_t *parent, int32_t i) {
-  while (parent[i] != i) {
-    parent[i] = parent[parent[i]];
-    i = parent[i];
-  }
-  return i;
-}
-
-/* The lower root stays, so that names do not depend on the order. */
-static void join(int32_t *parent, int32_t a, int32_t b) {
-  a = root_of(parent, a);
-  b = root_of(parent, b);
-  if (a < b)
-    parent[b] = a;
-  else
-    parent[a] = b;
-}
-
 /* Nodes and blocks held together by pairs that are not in contact's hands. */
 static cdem_status find_bonds(cdem_contact *contact, cdem_fault *fault) {
   cdem_contact_store *s = contact->store;
   const cdem_blocks *blocks = contact->blocks;
   int32_t *block;
   CDEM_NEW(block, blocks->blocks, fault);
-  for (int32_t b = 0; b < blocks->blocks; b++)
-    block[b] = b;
-  for (int32_t n = 0; n < blocks->mesh.nodes; n++)
-    s->cluster[n] = n;
+  cdem_sets_init(block, 0, blocks->blocks);
+  cdem_sets_init(s->cluster, 0, blocks->mesh.nodes);
   for (int32_t p = 0; p < blocks->pairs; p++) {
     const cdem_face_pair *pair = &blocks->pair[p];
     const int32_t *facet = blocks->pair_facet + 2 * (int64_t)p;
     if (s->active[facet[0]] && s->active[facet[1]])
       continue;
     for (int k = 0; k < pair->corners; k++)
-      join(s->cluster, pair->node[0][k], pair->node[1][k]);
-    join(block, blocks->block[pair->cell[0]], blocks->block[pair->cell[1]]);
+      cdem_sets_join(s->cluster, pair->node[0][k], pair->node[1][k]);
+    cdem_sets_join(block, blocks->block[pair->cell[0]], blocks->block[pair->cell[1]]);
   }
-  for (int32_t n = 0; n < blocks->mesh.nodes; n++)
-    s->cluster[n] = root_of(s->cluster, n);
+  cdem_sets_label(s->cluster, 0, blocks->mesh.nodes);
   for (int32_t f = 0; f < blocks->facets; f++)
-    s->component[f] = root_of(block, blocks->block[blocks->facet[f].cell]);
+    s->component[f] = cdem_sets_root(block, blocks->block[blocks->facet[f].cell]);
   free(block);
   return CDEM_OK;
 }

@@ -1,15 +1,8 @@
 /* Interfaces: nodes that move as one, and faces that come in when their strength is reached. */
+#include "base/sets.h"
 #include "cdem/interfaces_store.h"
 
 #include <math.h>
-
-static int32_t find_root(int32_t *parent, int32_t node) {
-  while (parent[node] != node) {
-    parent[node] = parent[parent[node]];
-    node = parent[node];
-  }
-  return node;
-}
 
 /* The first of the copies that a node is one of; they are one range of ids. */
 static int32_t first_copy(const cdem_blocks *blocks, int32_t node) {
@@ -24,21 +17,15 @@ static void label_copies(cdem_interfaces *interfaces, int32_t first) {
   cdem_interfaces_store *store = interfaces->store;
   const cdem_blocks *blocks = interfaces->blocks;
   int32_t *root = store->root, original = blocks->original[first], end = first;
-  for (; end < blocks->mesh.nodes && blocks->original[end] == original; end++)
-    root[end] = end;
+  while (end < blocks->mesh.nodes && blocks->original[end] == original)
+    end++;
+  cdem_sets_init(root, first, end);
   for (int64_t k = store->tie_start[original]; k < store->tie_start[original + 1]; k++) {
     int64_t p = store->tie[k] / 4, corner = store->tie[k] % 4;
-    if (!store->tied[p])
-      continue;
-    int32_t a = find_root(root, blocks->pair[p].node[0][corner]);
-    int32_t b = find_root(root, blocks->pair[p].node[1][corner]);
-    if (a < b)
-      root[b] = a;
-    else
-      root[a] = b;
+    if (store->tied[p])
+      cdem_sets_join(root, blocks->pair[p].node[0][corner], blocks->pair[p].node[1][corner]);
   }
-  for (int32_t n = first; n < end; n++)
-    root[n] = find_root(root, n);
+  cdem_sets_label(root, first, end);
 }
 
 /* Clusters of two or more, by their smallest node. */

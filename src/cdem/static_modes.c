@@ -6,6 +6,7 @@
  * part's centre and scaled by its size, so that all columns are alike.
  */
 #include "base/mat3.h"
+#include "base/sets.h"
 #include "cdem/solver_store.h"
 
 #include <lapacke.h>
@@ -22,33 +23,15 @@ typedef struct {
 
 /* ---- connected parts ---- */
 
-static int32_t root_of(int32_t *parent, int32_t node) {
-  while (parent[node] != node) {
-    parent[node] = parent[parent[node]];
-    node = parent[node];
-  }
-  return node;
-}
-
-static void join(int32_t *parent, int32_t a, int32_t b) {
-  int32_t ra = root_of(parent, a), rb = root_of(parent, b);
-  if (ra < rb)
-    parent[rb] = ra;
-  else
-    parent[ra] = rb;
-}
-
 static void join_all(const cdem_solver *solver, const cdem_sparse *matrix, int64_t joins,
                      const int32_t (*joined)[2], int32_t *parent) {
-  for (int32_t n = 0; n < solver->nodes; n++)
-    parent[n] = n;
+  cdem_sets_init(parent, 0, solver->nodes);
   for (int32_t p = 0; p < matrix->nodes; p++)
     for (int64_t k = matrix->start[p]; k < matrix->start[p + 1]; k++)
-      join(parent, matrix->node[p], matrix->node[matrix->column[k]]);
+      cdem_sets_join(parent, matrix->node[p], matrix->node[matrix->column[k]]);
   for (int64_t k = 0; k < joins; k++)
-    join(parent, joined[k][0], joined[k][1]);
-  for (int32_t n = 0; n < solver->nodes; n++)
-    parent[n] = root_of(parent, n);
+    cdem_sets_join(parent, joined[k][0], joined[k][1]);
+  cdem_sets_label(parent, 0, solver->nodes);
 }
 
 /* ---- the rigid motions ---- */

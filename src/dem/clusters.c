@@ -1,13 +1,15 @@
 /* Nodes to clusters: of each grain, what neighbourhoods connect. */
 #include "dem/clusters.h"
 
+#include "base/sets.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 typedef struct {
   int32_t owner, partner;
   double along; /* place along x, m: neighbours are near each other in this order */
-  int64_t point;
+  int32_t point;
 } filed;
 
 static int in_order(const void *one, const void *two) {
@@ -35,37 +37,20 @@ static bool near(const cdem_contact_points *p, int64_t i, int64_t j, double reac
   return square <= reach * reach;
 }
 
-/* The least point of a point's set so far, halving the way to it. */
-static int64_t root_of(int64_t *parent, int64_t i) {
-  while (parent[i] != i) {
-    parent[i] = parent[parent[i]];
-    i = parent[i];
-  }
-  return i;
-}
-
-static void join(int64_t *parent, int64_t i, int64_t j) {
-  int64_t a = root_of(parent, i), b = root_of(parent, j);
-  if (a < b)
-    parent[b] = a;
-  else
-    parent[a] = b;
-}
-
 static void connect(const cdem_contact_points *p, double reach, const filed *list, int64_t count,
-                    int64_t *parent) {
+                    int32_t *parent) {
   for (int64_t k = 0; k < count; k++)
     for (int64_t m = k + 1;
          m < count && list[m].owner == list[k].owner && list[m].partner == list[k].partner &&
          list[m].along - list[k].along <= reach;
          m++)
       if (near(p, list[k].point, list[m].point, reach))
-        join(parent, list[k].point, list[m].point);
+        cdem_sets_join(parent, list[k].point, list[m].point);
 }
 
 static int64_t file(const cdem_contact_points *p, filed *list) {
   int64_t count = 0;
-  for (int64_t i = 0; i < p->points; i++)
+  for (int32_t i = 0; i < p->points; i++)
     if (pushes(p, i))
       list[count++] = (filed){.owner = p->owner[i],
                               .partner = p->partner != NULL ? p->partner[i] : 0,
@@ -79,19 +64,23 @@ cdem_status cdem_clusters_find(const cdem_contact_points *points, double reach, 
                                int64_t *clusters, cdem_fault *fault) {
   CDEM_REQUIRE(reach > 0.0, fault, CDEM_INPUT,
                "clusters of contact nodes: the neighbourhood is %g m; it must be positive", reach);
+  CDEM_REQUIRE(points->points <= INT32_MAX, fault, CDEM_INPUT,
+               "clusters of contact nodes: %lld nodes; there may be %d", (long long)points->points,
+               (int)INT32_MAX);
   for (int64_t i = 0; i < points->points; i++)
     CDEM_REQUIRE(points->owner[i] >= 0, fault, CDEM_INPUT,
                  "clusters of contact nodes: node %lld belongs to grain %d", (long long)i,
                  (int)points->owner[i]);
   filed *list = cdem_allocate(points->points, sizeof *list, fault);
-  int64_t *parent = cdem_allocate(points->points, sizeof *parent, fault), found = 0;
+  int32_t *parent = cdem_allocate(points->points, sizeof *parent, fault);
+  int64_t found = 0;
   bool made = list != NULL && parent != NULL;
-  for (int64_t i = 0; made && i < points->points; i++)
-    parent[i] = i;
-  if (made)
+  if (made) {
+    cdem_sets_init(parent, 0, (int32_t)points->points);
     connect(points, reach, list, file(points, list), parent);
-  for (int64_t i = 0; made && i < points->points; i++) {
-    int64_t first = root_of(parent, i);
+  }
+  for (int32_t i = 0; made && i < points->points; i++) {
+    int32_t first = cdem_sets_root(parent, i);
     cluster[i] = !pushes(points, i) ? -1 : first == i ? (int32_t)found++ : cluster[first];
   }
   free(list);

@@ -6,12 +6,11 @@
 #ifndef CDEM_DEM_CONFINE_H
 #define CDEM_DEM_CONFINE_H
 
+#include "dem/confine_host.h"
 #include "dem/solver_store.h"
 
 struct cdem_confine {
-  cdem_confinement options;
-  bool flexible;
-  cdem_membrane membrane;
+  cdem_confine_host host;
   /* candidates */
   int64_t *row;         /* [nodes + 1] */
   int32_t *grain;       /* [row[nodes]] internal */
@@ -23,16 +22,9 @@ struct cdem_confine {
   int64_t capacity[8];
   int32_t *cell, *cell_grain; /* scratch of the search */
   /* of the last evaluation, ring by ring */
-  double *lost, *stored; /* [rings] W, J */
-  int32_t *touching;     /* [rings] most of one node, sum in `touching_all` */
+  int32_t *touching;     /* [rings] most of one node */
   int32_t *touching_all; /* [rings] nodes */
-  /* motion */
-  double time[2], wanted, side_wanted, speed; /* what the series of servos and of the shear point
-                                                 at */
-  double damping, quiet_damping;              /* of the options; at the start, 1/s */
-  bool sheared;
-  double moved;  /* of a node since the lists were made, m */
-  double damped; /* J */
+  double side_wanted;    /* what the series of the servo of the side points at, N */
 };
 
 cdem_status cdem_confine_init(cdem_dem *dem, cdem_fault *fault);

@@ -83,7 +83,7 @@ static void sort_row(int32_t *row, int64_t count) {
 /* Candidates of one node behind those there are. */
 static cdem_status node_row(const cdem_dem_store *s, struct cdem_confine *b, const grid *g,
                             int32_t node, cdem_fault *fault) {
-  const double *x = b->membrane.x + 3 * (int64_t)node;
+  const double *x = b->host.membrane.x + 3 * (int64_t)node;
   int64_t first = b->row[node], count = first;
   int32_t from[3], to[3];
   for (int c = 0; c < 3; c++) {
@@ -110,7 +110,7 @@ static cdem_status node_row(const cdem_dem_store *s, struct cdem_confine *b, con
 
 /* The same candidates by grain. */
 static cdem_status transpose(const cdem_dem_store *s, struct cdem_confine *b, cdem_fault *fault) {
-  int64_t count = b->row[b->membrane.nodes];
+  int64_t count = b->row[b->host.membrane.nodes];
   CDEM_TRY(cdem_grow(&b->push, &b->capacity[3], count + 1, 3 * sizeof *b->push, fault));
   CDEM_TRY(cdem_grow(&b->entry, &b->capacity[4], count + 1, sizeof *b->entry, fault));
   CDEM_TRY(cdem_grow(&b->cell, &b->capacity[0], s->grains + 1, sizeof *b->cell, fault));
@@ -143,18 +143,18 @@ static cdem_status transpose(const cdem_dem_store *s, struct cdem_confine *b, cd
 static cdem_status check_inside(const cdem_dem *dem, cdem_fault *fault) {
   const cdem_dem_store *s = dem->store;
   const struct cdem_confine *b = s->core->confine;
-  for (int32_t i = 0; i < b->membrane.nodes; i++)
+  for (int32_t i = 0; i < b->host.membrane.nodes; i++)
     for (int64_t k = b->row[i]; k < b->row[i + 1]; k++) {
       double n[3], normal[3];
       const double *x = cdem_place(s, b->grain[k]);
-      if (cdem_confine_overlap(x, b->membrane.x + 3 * (int64_t)i, n) <= 0.0)
+      if (cdem_confine_overlap(x, b->host.membrane.x + 3 * (int64_t)i, n) <= 0.0)
         continue;
-      cdem_membrane_normal(&b->membrane, i, normal);
+      cdem_membrane_normal(&b->host.membrane, i, normal);
       CDEM_REQUIRE(
           cdem_dot3(n, normal) >= -0.5 * cdem_norm3(normal), fault, CDEM_NUMERIC,
           "grain %d at (%.4g, %.4g, %.4g m) is outside of the membrane at t = %.6g s: take "
           "a narrower spacing of its nodes than %.4g m or a larger penalty",
-          s->id[b->grain[k]], x[0], x[1], x[2], dem->time, b->membrane.spacing);
+          s->id[b->grain[k]], x[0], x[1], x[2], dem->time, b->host.membrane.spacing);
     }
   return CDEM_OK;
 }
@@ -164,16 +164,16 @@ cdem_status cdem_confine_build(cdem_dem *dem, cdem_fault *fault) {
   struct cdem_confine *b = s->core->confine;
   double largest = 0.0;
   grid g;
-  if (!b->flexible)
+  if (!b->host.flexible)
     return CDEM_OK;
   for (int32_t i = 0; i < s->grains; i++)
     largest = fmax(largest, cdem_place(s, i)[3]);
   make_grid(s, largest + s->skin, &g);
   CDEM_TRY(fill_grid(s, b, &g, fault));
-  for (int32_t i = 0; i < b->membrane.nodes; i++)
+  for (int32_t i = 0; i < b->host.membrane.nodes; i++)
     CDEM_TRY(node_row(s, b, &g, i, fault));
   CDEM_TRY(transpose(s, b, fault));
-  cdem_membrane_mark(&b->membrane);
-  b->moved = 0.0;
+  cdem_membrane_mark(&b->host.membrane);
+  b->host.moved = 0.0;
   return check_inside(dem, fault);
 }

@@ -79,7 +79,7 @@ static outcome advance(cdem_dem *dem) {
     moved2 = fmax(moved2, core->part[c].moved2);
     bad |= core->part[c].bad >= 0;
   }
-  if (bad || (core->confine != NULL && isnan(core->confine->moved)))
+  if (bad || (core->confine != NULL && isnan(core->confine->host.moved)))
     return FAILED;
   double moved = sqrt(moved2);
   if (core->flow.on)
@@ -87,7 +87,7 @@ static outcome advance(cdem_dem *dem) {
   double shift = s->pair_image != NULL ? cell_moved(s) : 0.0;
   bool outlived = 2.0 * moved + shift >= s->skin || moved + core->wall_moved >= 0.5 * s->skin;
   if (core->confine != NULL)
-    outlived = outlived || moved + core->confine->moved >= s->skin;
+    outlived = outlived || moved + core->confine->host.moved >= s->skin;
   return outlived ? BUILD : GO_ON;
 }
 
@@ -151,7 +151,7 @@ static outcome team(cdem_dem *dem, bool moved, int64_t *left) {
 static cdem_status report_bad(const cdem_dem *dem, cdem_fault *fault) {
   const cdem_dem_store *s = dem->store;
   int32_t at = 0;
-  CDEM_REQUIRE(s->core->confine == NULL || !isnan(s->core->confine->moved), fault, CDEM_NUMERIC,
+  CDEM_REQUIRE(s->core->confine == NULL || !isnan(s->core->confine->host.moved), fault, CDEM_NUMERIC,
                "the membrane is no longer finite at t = %.6g s; the pressure may be too large, or "
                "the step too long",
                dem->time);

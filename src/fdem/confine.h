@@ -8,7 +8,7 @@
 #ifndef CDEM_FDEM_CONFINE_H
 #define CDEM_FDEM_CONFINE_H
 
-#include "dem/confinement.h"
+#include "dem/confine_host.h"
 #include "fdem/solver_store.h"
 
 /* A node of the membrane near a grain, and what the grain gets from it now. */
@@ -20,22 +20,15 @@ typedef struct {
 } cdem_fdem_membrane_touch;
 
 struct cdem_fdem_confine {
-  cdem_confinement options;
-  cdem_membrane membrane;
+  cdem_confine_host host;
   double skin;                     /* m */
   int64_t *row;                    /* [nodes + 1] of the membrane */
   cdem_fdem_membrane_touch *touch; /* [row[nodes]] grains ascending in each row */
   int64_t *grain_row;              /* [grains + 1] */
   int64_t *of_grain;               /* [row[nodes]] touches of each grain, ascending */
   int64_t capacity[2];
-  double *built;                 /* [grains][3] centres when the rows were made */
-  double moved;                  /* of a node since then, m */
-  double *lost, *stored, *stiff; /* [rings] W, J; largest stiffness on one node, N/m */
-  /* what the series of the plate point at */
-  double time[1], wanted, speed;
-  bool sheared;
-  double damping, quiet_damping; /* of the options; more at the start, 1/s */
-  double damped;                 /* J */
+  double *built; /* [grains][3] centres when the rows were made */
+  double *stiff; /* [rings] largest stiffness on one node, N/m */
 };
 
 cdem_status cdem_fdem_confine_init(cdem_fdem *fdem, cdem_fault *fault);

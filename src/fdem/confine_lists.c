@@ -46,7 +46,7 @@ static int64_t first_above(const level *sorted, int64_t count, double z) {
 static cdem_status find_row(const cdem_fdem_store *s, struct cdem_fdem_confine *b,
                             const level *sorted, double window, int32_t node, int64_t *count,
                             cdem_fault *fault) {
-  const double *x = b->membrane.x + 3 * (int64_t)node;
+  const double *x = b->host.membrane.x + 3 * (int64_t)node;
   int64_t from = *count;
   for (int64_t k = first_above(sorted, s->grains, x[2] - window);
        k < s->grains && sorted[k].z <= x[2] + window; k++) {
@@ -65,7 +65,7 @@ static cdem_status find_row(const cdem_fdem_store *s, struct cdem_fdem_confine *
 /* The same by grain. */
 static cdem_status transpose(const cdem_fdem_store *s, struct cdem_fdem_confine *b,
                              cdem_fault *fault) {
-  int64_t count = b->row[b->membrane.nodes];
+  int64_t count = b->row[b->host.membrane.nodes];
   CDEM_TRY(cdem_grow(&b->of_grain, &b->capacity[1], count, sizeof *b->of_grain, fault));
   memset(b->grain_row, 0, (size_t)(s->grains + 1) * sizeof *b->grain_row);
   for (int64_t k = 0; k < count; k++)
@@ -109,7 +109,7 @@ static double room_before(const cdem_membrane *m, const double center[3], double
 /* A centre beyond the membrane has left the specimen. */
 static cdem_status check_inside(const cdem_fdem *fdem, cdem_fault *fault) {
   const cdem_fdem_store *s = fdem->store;
-  const cdem_membrane *m = &s->confine->membrane;
+  const cdem_membrane *m = &s->confine->host.membrane;
   double least = INFINITY;
   for (int32_t i = 0; i < m->nodes; i++)
     least = fmin(least, distance(m, m->x + 3 * (int64_t)i));
@@ -134,15 +134,15 @@ static cdem_status build(cdem_fdem *fdem, level *sorted, cdem_fault *fault) {
     window = fmax(window, reach_of(s, g) + 2.0 * b->skin);
   }
   qsort(sorted, (size_t)s->grains, sizeof *sorted, by_height);
-  for (int32_t i = 0; i < b->membrane.nodes; i++) {
+  for (int32_t i = 0; i < b->host.membrane.nodes; i++) {
     b->row[i] = count;
     CDEM_TRY(find_row(s, b, sorted, window, i, &count, fault));
   }
-  b->row[b->membrane.nodes] = count;
+  b->row[b->host.membrane.nodes] = count;
   CDEM_TRY(transpose(s, b, fault));
   memcpy(b->built, s->center, (size_t)(3 * s->grains) * sizeof *s->center);
-  cdem_membrane_mark(&b->membrane);
-  b->moved = 0.0;
+  cdem_membrane_mark(&b->host.membrane);
+  b->host.moved = 0.0;
   return check_inside(fdem, fault);
 }
 
@@ -156,7 +156,7 @@ cdem_status cdem_fdem_confine_lists(cdem_fdem *fdem, bool always, cdem_fault *fa
       d[c] = s->center[3 * g + c] - b->built[3 * g + c];
     most = fmax(most, cdem_dot3(d, d));
   }
-  if (!always && b->moved + sqrt(most) < b->skin)
+  if (!always && b->host.moved + sqrt(most) < b->skin)
     return CDEM_OK;
   level *sorted = cdem_allocate(s->grains, sizeof *sorted, fault);
   cdem_status status = sorted != NULL ? build(fdem, sorted, fault) : CDEM_MEMORY;

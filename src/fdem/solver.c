@@ -94,7 +94,7 @@ static cdem_status start(cdem_fdem *fdem, cdem_fault *fault) {
     cdem_fdem_confine_calm(fdem);
   set_before(fdem);
   if (s->confine != NULL)
-    cdem_membrane_change_step(&s->confine->membrane, 0.0, fdem->step);
+    cdem_fdem_confine_change_step(fdem, 0.0);
   cdem_fdem_book_start(fdem);
   return CDEM_OK;
 }

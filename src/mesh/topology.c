@@ -1,4 +1,5 @@
 /* Components and boundary of a set of cells. */
+#include "base/sets.h"
 #include "mesh/mesh.h"
 
 #include <inttypes.h>
@@ -25,24 +26,6 @@ static cdem_status check_choice(const cdem_mesh *mesh, const int32_t *cell, int3
   return CDEM_OK;
 }
 
-/* Union-find with path halving; the root is the smallest node of its tree. */
-static int32_t find_root(int32_t *parent, int32_t node) {
-  while (parent[node] != node) {
-    parent[node] = parent[parent[node]];
-    node = parent[node];
-  }
-  return node;
-}
-
-static void join(int32_t *parent, int32_t a, int32_t b) {
-  a = find_root(parent, a);
-  b = find_root(parent, b);
-  if (a < b)
-    parent[b] = a;
-  else
-    parent[a] = b;
-}
-
 cdem_status cdem_mesh_components(const cdem_mesh *mesh, const int32_t *cell, int32_t cells,
                                  int32_t *node_component, int32_t *components, cdem_fault *fault) {
   int dimension;
@@ -57,10 +40,10 @@ cdem_status cdem_mesh_components(const cdem_mesh *mesh, const int32_t *cell, int
     for (int k = 0; k < nodes; k++) {
       if (parent[node[k]] < 0)
         parent[node[k]] = node[k];
-      join(parent, node[0], node[k]);
+      cdem_sets_join(parent, node[0], node[k]);
     }
   }
-  /* A root comes before the nodes of its tree, so its number is known when they ask for it. */
+  /* A root comes before the nodes of its set, so its number is known when they ask for it. */
   int32_t found = 0;
   for (int32_t n = 0; n < mesh->nodes; n++) {
     if (parent[n] < 0)
@@ -68,7 +51,7 @@ cdem_status cdem_mesh_components(const cdem_mesh *mesh, const int32_t *cell, int
     else if (parent[n] == n)
       node_component[n] = found++;
     else
-      node_component[n] = node_component[find_root(parent, n)];
+      node_component[n] = node_component[cdem_sets_root(parent, n)];
   }
   *components = found;
   free(parent);

@@ -156,6 +156,9 @@ static void refusals(void **state) {
   n.owner[1] = -1;
   check_fails(cdem_clusters_find(&n.points, 0.5, n.cluster, &n.clusters, &fault), CDEM_INPUT,
               "node 1 belongs to grain -1");
+  n.points.points = INT64_C(1) << 31; /* refused before anything is read */
+  check_fails(cdem_clusters_find(&n.points, 0.5, n.cluster, &n.clusters, &fault), CDEM_INPUT,
+              "2147483648 nodes; there may be 2147483647");
 }
 
 int main(void) {
