@@ -1,5 +1,6 @@
 #include "io/springs_pairs.h"
 
+#include "base/version.h"
 #include "io/output.h"
 #include "io/text.h"
 
@@ -140,8 +141,8 @@ void cdem_line_pairs_release(cdem_line_pairs *pairs) {
 void cdem_line_pairs_put_head(const cdem_matrix_writer *matrix, const char *program, FILE *stream) {
   const cdem_carried *c = &matrix->writer.carried;
   const char *source = matrix->model->mesh->source;
-  fprintf(stream, "# spring network of %s for %s, by cdem " CDEM_VERSION "\n",
-          source != NULL ? source : "a generated mesh", program);
+  fprintf(stream, "# spring network of %s for %s, by cdem %s\n",
+          source != NULL ? source : "a generated mesh", program, cdem_version());
   fprintf(stream,
           "# SI units; a pair is the sum over all elements. Of %" PRId64 " pairs\n"
           "#   %" PRId64 " are a spring along their line and nothing else,\n"
