@@ -146,15 +146,15 @@ static error_t parse(int key, char *text, struct argp_state *state) {
 
 int cmd_list(int argc, char **argv) {
   static const struct argp_option none[] = {{0}};
-  static const struct argp argp = {
-      none,
-      parse,
-      "[TOPIC]",
-      "Lists what the program knows: elements, materials, formats, laws, packings, shapes, commands "
-      "or case; without TOPIC all.",
-      NULL,
-      NULL,
-      NULL};
+  static const struct argp argp = {none,
+                                   parse,
+                                   "[TOPIC]",
+                                   "Lists what the program knows: elements, materials, formats, "
+                                   "laws, packings, shapes, commands "
+                                   "or case; without TOPIC all.",
+                                   NULL,
+                                   NULL,
+                                   NULL};
   const char *topic = NULL, *names[TOPICS];
   command_parse(&argp, argc, argv, &topic);
   for (int i = 0; i < TOPICS; i++)
