@@ -32,6 +32,8 @@ string(TIMESTAMP CDEM_DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)
 configure_file(cmake/debian/changelog.in ${debian}/changelog.Debian @ONLY)
 configure_file(cmake/debian/copyright ${debian}/copyright COPYONLY)
 configure_file(cmake/debian/lintian-overrides ${debian}/overrides/cdem COPYONLY)
+file(WRITE ${debian}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${debian}/triggers)
 add_custom_command(OUTPUT ${debian}/changelog.gz ${debian}/changelog.Debian.gz
   COMMAND sh -c "gzip -9nc ${PROJECT_SOURCE_DIR}/CHANGELOG.md >changelog.gz && gzip -9nc changelog.Debian >changelog.Debian.gz"
   WORKING_DIRECTORY ${debian} DEPENDS CHANGELOG.md ${debian}/changelog.Debian VERBATIM)
