@@ -1,4 +1,4 @@
-# cpack: one Debian package with program, library, header, data and docs (docs/rooms/tools.md says why one).
+# cpack: one Debian package with program, library, header, data and docs (docs/how-to/package.md says why one).
 set(CDEM_MAINTAINER "cdem maintainers <maintainers@users.noreply.h-seed-7ce9458a.example>" CACHE STRING "maintainer of the package")
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME cdem)

@@ -23,6 +23,7 @@ if [ -d "$build/man" ]; then # help2man was there
     page=$root/share/man/man1/$name.1
     gunzip "$page.gz"
     grep -q '^\.SH SYNOPSIS' "$page" && grep -q '^\.SH DESCRIPTION' "$page" || { echo "$page says too little"; exit 1; }
+    awk '/^\.SH/ { on = /EXAMPLES/; next } on && !/^(\.|cdem |    )/ { print FILENAME ": an example is broken: " $0; bad = 1 } END { exit bad }' "$page"
     ! command -v mandoc >/dev/null || mandoc -T lint -W warning "$page"
   done
 fi
