@@ -1,12 +1,16 @@
 #!/bin/sh
-# Installs the Debian packages of cmake/packages.txt that are missing; sudo only when not root.
-# usage: install-packages.sh   (from anywhere)
+# Installs the Debian packages that are missing of sections of cmake/packages.txt; sudo only when not root.
+# usage: install-packages.sh SECTION...   (from anywhere)
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
+[ $# -gt 0 ] || { echo "usage: $0 SECTION..., sections of $here/packages.txt" >&2; exit 2; }
 missing=
-for package in $(grep -v '^#' "$here/packages.txt"); do
-  state=$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null || true)
-  [ "$state" = "install ok installed" ] || missing="$missing $package"
+for section in "$@"; do
+  grep -q "^# $section:" "$here/packages.txt" || { echo "error: $here/packages.txt has no section '$section'" >&2; exit 2; }
+  for package in $(awk -v wanted="# $section:" '/^#/ { on = index($0, wanted) == 1; next } on' "$here/packages.txt"); do
+    state=$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null || true)
+    [ "$state" = "install ok installed" ] || missing="$missing $package"
+  done
 done
 [ -n "$missing" ] || exit 0
 sudo=

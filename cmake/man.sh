@@ -67,8 +67,9 @@ page() { # NAME SUMMARY COMMAND...
     }
     /^\.TH / { sub(/"[A-Z][a-z]+ [0-9]+"/, date) }
     /^\.SH / && typed { print ".fi"; typed = 0 }
-    $0 == "Examples:" { print ".SH EXAMPLES"; print ".nf"; typed = 1; next }
+    $0 == "Examples:" || $0 == ".SH EXAMPLES" { print ".SH EXAMPLES"; print ".nf"; typed = 1; next }
     typed && ($0 == ".IP" || $0 == ".PP") { next }
+    typed && $0 == ".HP" { getline; print "    " $0; next }
     held == ".IP" { held = ""; if (/^[A-Z][^.]*:$/) { sub(/:$/, ""); print ".SS \"" $0 "\""; next } print ".IP" }
     held == ".B cdem" { held = ""
       if (command != "" && sub("^\\\\fI\\\\," command " \\\\/\\\\fR", "")) { print ".B cdem " command; put($0); next }
@@ -77,7 +78,7 @@ page() { # NAME SUMMARY COMMAND...
     { put($0) }' "$work/page" >"$out/$name.1"
 }
 
-page cdem "finite-element stiffness as springs, and models of rock and soil that break"
+page cdem "finite-element stiffness as springs; rock and soil that break"
 for command in $commands; do
   page "cdem-$command" "$(summary "$command")" "$command"
 done

@@ -1,4 +1,4 @@
-# cpack: one Debian package with program, library, header, data and docs (docs/rooms/tools.md says why one).
+# cpack: one Debian package with program, library, header, data and docs (docs/how-to/package.md says why one).
 set(CDEM_MAINTAINER "cdem maintainers <maintainers@users.noreply.h-seed-7ce9458a.example>" CACHE STRING "maintainer of the package")
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME cdem)
@@ -21,6 +21,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "paraview")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)

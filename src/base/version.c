@@ -1,7 +1,6 @@
 #include "base/version.h"
 
 #include "base/simd.h"
-#include "commit.h"
 
 /* What CMake knows comes as a text (CMakeLists.txt of this room), the rest from the compiler. */
 #if defined _OPENMP && _OPENMP == 201511
@@ -20,10 +19,6 @@
 
 const char *cdem_version(void) {
   return CDEM_VERSION;
-}
-
-const char *cdem_version_commit(void) {
-  return CDEM_COMMIT;
 }
 
 const char *cdem_version_build(void) {

@@ -1,27 +1,30 @@
 #!/bin/sh
-# Installs into a fresh folder and uses what was installed: the program, pkg-config, the CMake package.
+# Installs into a fresh folder, moves it, and uses what was installed: program, library, man pages, examples.
 # usage: install.sh BUILD_FOLDER SOURCE_FOLDER
 set -eu
 build=$1 source=$2
 root=$(mktemp -d)
 trap 'rm -rf "$root"' EXIT
-cmake --install "$build" --prefix "$root" >/dev/null
+cmake --install "$build" --prefix "$root/first" >/dev/null
+mv "$root/first" "$root/moved"
+root=$root/moved
 "$root/bin/cdem" --version | grep -q '^cdem [0-9]'
-PKG_CONFIG_PATH=$(dirname "$(find "$root" -name cdem.pc)")
-export PKG_CONFIG_PATH
-# shellcheck disable=SC2046
-cc -std=c17 "$source/examples/cube.c" $(pkg-config --define-variable=prefix="$root" --cflags --libs cdem) \
-  -Wl,-rpath,"$(dirname "$PKG_CONFIG_PATH")" -o "$root/cube"
-"$root/cube" | grep -q '^1-7 body frame:'
-mkdir "$root/project"
-cat >"$root/project/CMakeLists.txt" <<EOF
-cmake_minimum_required(VERSION 3.22)
-project(user C)
-find_package(cdem REQUIRED)
-add_executable(cube $source/examples/cube.c)
-target_link_libraries(cube PRIVATE cdem::cdem)
-EOF
-cmake -S "$root/project" -B "$root/project/build" -DCMAKE_PREFIX_PATH="$root" >/dev/null
-cmake --build "$root/project/build" >/dev/null
-"$root/project/build/cube" | grep -c 'edge' | grep -qx 12
-echo "installed and used"
+for file in "$root/bin/cdem" "$(find "$root" -name 'libcdem.so.*.*')"; do
+  ! readelf -d "$file" | grep -E 'R(UN)?PATH' || { echo "$file has a path of this machine in it"; exit 1; }
+done
+# One header, and no library that the program would need of its own.
+[ "$(find "$root/include" -name '*.h')" = "$root/include/libcdem.h" ]
+! readelf -d "$root/bin/cdem" | grep libcdem
+"$root/bin/cdem" springs "$root/share/cdem/meshes/block-with-hole.geo" --material "$root/share/cdem/materials/granite.yaml" -q >/dev/null
+if [ -d "$build/man" ]; then # help2man was there
+  commands=$("$root/bin/cdem" --help | sed -n 's/^  \([a-z]*\)  .*/\1/p')
+  [ -n "$commands" ]
+  for name in cdem $(echo "$commands" | sed 's/^/cdem-/'); do
+    page=$root/share/man/man1/$name.1
+    gunzip "$page.gz"
+    grep -q '^\.SH SYNOPSIS' "$page" && grep -q '^\.SH DESCRIPTION' "$page" || { echo "$page says too little"; exit 1; }
+    awk '/^\.SH/ { on = /EXAMPLES/; next } on && !/^(\.|cdem |    )/ { print FILENAME ": an example is broken: " $0; bad = 1 } END { exit bad }' "$page"
+    ! command -v mandoc >/dev/null || mandoc -T lint -W warning "$page"
+  done
+fi
+sh "$source/tests/house/use.sh" "$root/share/doc/cdem/examples" "$root/share/cdem" "$root"

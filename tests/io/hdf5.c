@@ -1,4 +1,5 @@
 /* Springs as HDF5: read back by HDF5's own driver, the spring tensor from the file alone. */
+#include "base/version.h"
 #include "io/support.h"
 
 #include <hdf5.h>
@@ -226,7 +227,7 @@ static void the_file_explains_itself(void **state) {
   check_ok(hand_write(&hand, cdem_springs_format_find("h5"), in_scratch("a.h5"), 6, 1, &fault));
   hid_t file = H5Fopen(in_scratch("a.h5"), H5F_ACC_RDONLY, H5P_DEFAULT);
   check_text(file, "/", "format", 0, "cdem springs");
-  check_text(file, "/", "program", 0, "cdem 0.");
+  check_text(file, "/", "program", 0, cdem_version());
   check_text(file, "/", "mesh", 0, "sand.msh");
   check_text(file, "/", "material", 0, "isotropic, young = 40000000000 Pa, poisson = 0.25");
   check_text(file, "/", "formula", 0, "coupling * dual[couples_to]");
