@@ -263,6 +263,7 @@ int cmd_run(int argc, char **argv) {
                                     .frames = !s.no_frames,
                                     .version = CDEM_VERSION,
                                     .commit = CDEM_COMMIT,
+                                    .build = CDEM_BUILD ", " CDEM_COMPILER,
                                     .progress = &progress,
                                     .warnings = &warnings};
   cdem_run_summary summary = {0};
