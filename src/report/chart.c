@@ -274,10 +274,12 @@ static void put_legend(cdem_report_text *to, const cdem_report_chart *chart) {
 /* ---- the whole ---- */
 
 static frame frame_for(const range *all, bool logarithmic) {
-  double low = all->y_low, high = all->y_high;
+  double low = all->y_low, high = all->y_high, left = all->x_low;
+  if (left > 0.0 && left < 0.05 * all->x_high)
+    left = 0.0;
   if (low > 0.0 && low < 0.5 * high) /* near enough to zero to show it */
     low = 0.0;
-  return (frame){.x = cdem_report_axis_for(all->x_low, all->x_high, false),
+  return (frame){.x = cdem_report_axis_for(left, all->x_high, false),
                  .y = logarithmic ? decades_for(all->y_low, high)
                                   : cdem_report_axis_for(low, high, true),
                  .left = LEFT,

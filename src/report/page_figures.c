@@ -103,13 +103,16 @@ static const wanted triaxial[] = {{.title = "Stress on the plates and on the sid
                                    .columns = 3,
                                    .column = {"axial_stress", "bottom_stress", "lateral_stress"},
                                    .x_scale = 1.0,
-                                   .y_scale = 1.0},
+                                   .y_scale = 1.0,
+                                   .x_label = "axial strain"},
                                   {.title = "Volume against axial strain",
                                    .x = "axial_strain",
                                    .columns = 1,
                                    .column = {"volumetric_strain"},
                                    .x_scale = 1.0,
-                                   .y_scale = 1.0}};
+                                   .y_scale = 1.0,
+                                   .x_label = "axial strain",
+                                   .y_label = "volumetric strain"}};
 
 static bool has_all(const cdem_table *history, const wanted *w) {
   bool all = history->rows >= 2 && cdem_run_history_find(history, w->x) >= 0;

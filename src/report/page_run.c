@@ -33,9 +33,9 @@ static const struct {
              {"cycles", "Steps of the grains a step of the medium", ""},
              {"coarse_step_limit", "Longest stable step of the medium", "s"},
              {"wall_time", "Wall time", "s"},
-             {"wall_fine", "of it grains", "s"},
-             {"wall_coarse", "of it the medium", "s"},
-             {"wall_transfer", "of it the coupling", "s"},
+             {"wall_fine", "Wall time of the grains", "s"},
+             {"wall_coarse", "Wall time of the medium", "s"},
+             {"wall_transfer", "Wall time of the coupling", "s"},
              {"energy_error", "Closing error of the energy book", ""}};
 
 /* Told elsewhere on the page. */

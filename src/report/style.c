@@ -47,7 +47,7 @@ const char cdem_report_style[] =
     "nav ul{display:flex;flex-wrap:wrap;gap:4px 20px;margin:22px 0 "
     "0;padding:0;list-style:none;font-size:15px}\n"
     "nav a{display:inline-block;padding:3px 0}\n"
-    ".grid{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,420px),1fr));gap:"
+    ".grid{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,420px),1fr));gap:"
     "20px;"
     "align-items:start;margin:18px 0}\n"
     "figure{margin:0;min-width:0;padding:14px;background:var(--card);border:1px solid "

@@ -20,6 +20,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 LOOKS = [("light", "light", 1200), ("dark", "dark", 1200), ("phone", "light", 360), ("phone-dark", "dark", 360)]
@@ -213,17 +214,25 @@ def judge(name, scheme, url, measured, asked, reported):
     return not wrong
 
 
-def calls(proxy):
-    """First lines of what reached the proxy."""
-    found = []
-    while True:
-        try:
-            connection, _ = proxy.accept()
-        except BlockingIOError:
-            return found
-        connection.settimeout(5)
-        with connection:
-            found.append(connection.recv(400).decode("latin-1").split("\r\n")[0])
+class Proxy(threading.Thread):
+    """Refuses all that it is asked for, and remembers it."""
+
+    def __init__(self):
+        super().__init__(daemon=True)
+        self.socket = socket.create_server(("127.0.0.1", 0))
+        self.port = self.socket.getsockname()[1]
+        self.called = []
+
+    def run(self):
+        while True:
+            connection, _ = self.socket.accept()
+            connection.settimeout(10)
+            with connection:
+                try:
+                    self.called.append(connection.recv(400).decode("latin-1").split("\r\n")[0])
+                    connection.sendall(b"HTTP/1.1 403 Forbidden\r\nContent-Length: 0\r\nConnection: close\r\n\r\n")
+                except OSError:
+                    pass
 
 
 def main():
@@ -233,10 +242,10 @@ def main():
         print("chromium is not installed (Debian package chromium); skipped", file=sys.stderr)
         return 77
     folder.mkdir(parents=True, exist_ok=True)
-    proxy = socket.create_server(("127.0.0.1", 0))
-    proxy.setblocking(False)
+    proxy = Proxy()
+    proxy.start()
     profile = tempfile.mkdtemp(prefix="cdem-browser-")
-    browser = Browser(program, profile, proxy.getsockname()[1])
+    browser = Browser(program, profile, proxy.port)
     good = True
     try:
         browser.attach()
@@ -249,7 +258,7 @@ def main():
     finally:
         browser.end()
         shutil.rmtree(profile, ignore_errors=True)
-    for call in calls(proxy):
+    for call in proxy.called:
         own = any(host in call for host in BROWSERS_OWN)
         good = good and own
         if not own:
