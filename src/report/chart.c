@@ -14,7 +14,7 @@ enum {
   HEIGHT = 300,
   LEFT = 66,
   RIGHT = 14,
-  TOP = 22,
+  TOP = 28,
   BOTTOM = 52,
   SPARK_WIDTH = 120,
   SPARK_HEIGHT = 28,
@@ -206,7 +206,7 @@ static void put_power(cdem_report_text *to, const frame *f, bool upright) {
   if (axis->power == 0)
     return;
   put_place(to, "<text x=\"", upright ? f->left - 7.0 : f->right);
-  put_place(to, "\" y=\"", upright ? f->top - 9.0 : f->bottom + 43.0);
+  put_place(to, "\" y=\"", upright ? f->top - 14.0 : f->bottom + 43.0);
   cdem_report_format(to, "\" text-anchor=\"%s\">× %s</text>", upright ? "middle" : "end",
                      cdem_report_power(axis->power, text));
 }

@@ -25,10 +25,14 @@ static void put_vector(cdem_report_text *to, const double *value, const cdem_cas
   int length = key->length;
   while (length > key->fewest && length > 1 && value[length - 1] == 0.0)
     length--;
-  cdem_report_raw(to, length > 1 ? "(" : "");
+  if (length == 1) {
+    cdem_report_put_value_of(to, value[0], unit);
+    return;
+  }
+  cdem_report_raw(to, "(");
   for (int i = 0; i < length; i++)
     cdem_report_format(to, "%s%s", i > 0 ? ", " : "", cdem_report_number(value[i], DIGITS, text));
-  cdem_report_raw(to, length > 1 ? ")" : "");
+  cdem_report_raw(to, ")");
   if (strcmp(unit, "1") != 0)
     cdem_report_format(to, " %s", cdem_report_unit(unit, text));
 }

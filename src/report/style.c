@@ -85,7 +85,7 @@ const char cdem_report_style[] =
     "th[scope=rowgroup]{padding-top:12px}\n"
     ".number{text-align:right;white-space:nowrap}\n"
     ".note{color:var(--soft);font-size:14px}\n"
-    "td.note{min-width:180px}\n"
+    "td.note{min-width:260px}\n"
     ".settings{width:100%;table-layout:auto}\n"
     ".settings th{white-space:nowrap}\n"
     ".settings td:nth-child(2){min-width:120px}\n"
