@@ -263,6 +263,7 @@ int cmd_run(int argc, char **argv) {
                                     .frames = !s.no_frames,
                                     .version = cdem_version(),
                                     .commit = cdem_version_commit(),
+                                    .build = cdem_version_build(),
                                     .progress = &progress,
                                     .warnings = &warnings};
   cdem_run_summary summary = {0};

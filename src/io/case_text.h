@@ -1,4 +1,5 @@
-/* Private to io: the schema in words, for help, the reference page and the JSON Schema. */
+/* The schema in words: for help, the reference page, the JSON Schema, and whoever shows the values
+ * of a case. */
 #ifndef CDEM_IO_CASE_TEXT_H
 #define CDEM_IO_CASE_TEXT_H
 

@@ -8,6 +8,8 @@
 #include "results/results.h"
 #include "results/state.h"
 
+#include <stdbool.h>
+
 /* ---- frames: FOLDER/SET.pvd and FOLDER/SET/SET-000012.vtu (frames_vtk.c) ---- */
 
 typedef struct cdem_frame_writer cdem_frame_writer;
@@ -42,19 +44,33 @@ typedef struct {
   char *name, *unit;
   double value; /* NaN: the run has none */
   char *of, *take;
-  double from, to, factor; /* s, s, - */
+  double from, to, factor;                 /* s, s, - */
+  double reference, difference, tolerance; /* NaN: none */
 } cdem_summary_result;
+
+/* A text or a number at the top of the summary ("steps") or among its checksums ("checksums.mesh"),
+ * in the order of the file; null: NULL. */
+typedef struct {
+  char *name, *text;
+  double number; /* NaN: the text is none */
+} cdem_summary_fact;
 
 typedef struct {
   double wall_time; /* s */
   int64_t results;
   cdem_summary_result *result; /* [results], in the order of the case */
+  int64_t facts, fact_capacity;
+  cdem_summary_fact *fact; /* [facts] */
+  int64_t warnings;
+  char **warning; /* [warnings] that the run gave */
 } cdem_summary_file;
 
 /* CDEM_INPUT, with line, column and caret, for a file that is broken, changed or something else. */
 cdem_status cdem_read_summary(const char *path, cdem_summary_file *summary, cdem_fault *fault);
 /* Safe on a zeroed summary and twice. */
 void cdem_summary_file_release(cdem_summary_file *summary);
+/* The text of a fact, NULL where there is none. */
+const char *cdem_summary_fact_find(const cdem_summary_file *summary, const char *name);
 
 /* ---- states: HDF5, replaced as a whole (state_file.c, mesh_state.c) ---- */
 
@@ -90,6 +106,35 @@ void cdem_folder_lock_drop(cdem_folder_lock **lock);
 /* Reads a whole text file; *text newly allocated, ended by zero. CDEM_INPUT when there is a zero
  * byte in it. */
 cdem_status cdem_read_text(const char *path, char **text, cdem_fault *fault);
+
+/* ---- looking at a folder (listing.c) ---- */
+
+typedef struct {
+  char *name;
+  bool folder;
+  int64_t bytes;
+  int64_t changed; /* s since 1970, UTC */
+} cdem_listed;
+
+typedef struct {
+  int64_t count, capacity;
+  cdem_listed *item; /* [count] in the order of their names' bytes */
+} cdem_listing;
+
+/* Files and folders in a folder; names with a dot in front are left out. */
+cdem_status cdem_list_folder(const char *path, cdem_listing *listing, cdem_fault *fault);
+/* Safe on a zeroed listing and twice. */
+void cdem_listing_release(cdem_listing *listing);
+/* NULL: not there. */
+const cdem_listed *cdem_listing_find(const cdem_listing *listing, const char *name);
+/* The process that holds the lock of a folder; 0: none. */
+int64_t cdem_folder_holder(const char *folder);
+/* A whole file as it is; *data newly allocated. */
+cdem_status cdem_read_bytes(const char *path, unsigned char **data, int64_t *bytes,
+                            cdem_fault *fault);
+/* The way from a file, whose folder is there, to a folder: "../run/"; "" where they are the same.
+ * Newly allocated. */
+cdem_status cdem_relative_path(const char *file, const char *folder, char **way, cdem_fault *fault);
 
 /* ---- maps (map_gnuplot.c) ---- */
 /* Draws FOLDER/NAME.png and .svg, keeping .gp and .dat, as cdem_write_figure does. */

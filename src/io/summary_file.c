@@ -1,5 +1,6 @@
 /* summary.json read back. JSON is YAML in flow style, so the reader of cases serves: places, carets
- * and the refusal of double keys come with it. Only what runs are compared by is kept. */
+ * and the refusal of double keys come with it. Kept is what runs are compared by, and what a report
+ * tells of a run. */
 #include "io/run_files.h"
 #include "io/text.h"
 #include "io/yaml_tree.h"
@@ -62,9 +63,55 @@ static cdem_status take_result(cdem_yaml *yaml, const cdem_yaml_node *name,
   if (result->name == NULL)
     return CDEM_MEMORY;
   result->value = number(yaml, want(yaml, map, "value", CDEM_YAML_SCALAR));
+  result->reference = number(yaml, cdem_yaml_find(yaml, map, "reference"));
+  result->difference = number(yaml, cdem_yaml_find(yaml, map, "difference"));
+  result->tolerance = number(yaml, cdem_yaml_find(yaml, map, "tolerance"));
   CDEM_TRY(copy(want(yaml, map, "unit", CDEM_YAML_SCALAR), &result->unit, fault));
   return setting != NULL ? take_setting(yaml, setting, result, fault) : CDEM_OK;
 }
+
+/* ---- facts and warnings ---- */
+
+static cdem_status add_fact(const char *prefix, const char *name, const cdem_yaml_node *value,
+                            cdem_summary_file *summary, cdem_fault *fault) {
+  size_t room = strlen(prefix) + strlen(name) + 1;
+  CDEM_TRY(cdem_grow(&summary->fact, &summary->fact_capacity, summary->facts + 1,
+                     sizeof *summary->fact, fault));
+  cdem_summary_fact *fact = &summary->fact[summary->facts++]; /* zeroed */
+  fact->name = cdem_allocate((int64_t)room, 1, fault);
+  if (fact->name == NULL)
+    return CDEM_MEMORY;
+  stpcpy(stpcpy(fact->name, prefix), name);
+  CDEM_TRY(copy(value, &fact->text, fault));
+  char *end = NULL;
+  fact->number = fact->text != NULL ? cdem_get_real(fact->text, &end) : NAN;
+  if (end == fact->text || (end != NULL && *end != '\0'))
+    fact->number = NAN;
+  return CDEM_OK;
+}
+
+static cdem_status take_facts(const cdem_yaml *yaml, const cdem_yaml_node *map, const char *prefix,
+                              cdem_summary_file *summary, cdem_fault *fault) {
+  CDEM_YAML_EACH(yaml, map, name, value)
+  if (value->kind == CDEM_YAML_SCALAR)
+    CDEM_TRY(add_fact(prefix, name->text, value, summary, fault));
+  return CDEM_OK;
+}
+
+/* Older summaries have no warnings. */
+static cdem_status take_warnings(const cdem_yaml *yaml, const cdem_yaml_node *list,
+                                 cdem_summary_file *summary, cdem_fault *fault) {
+  if (list == NULL || list->kind != CDEM_YAML_LIST)
+    return CDEM_OK;
+  CDEM_NEW(summary->warning, list->children, fault);
+  for (const cdem_yaml_node *item = cdem_yaml_child(yaml, list); item != NULL;
+       item = cdem_yaml_next(yaml, item))
+    if (item->kind == CDEM_YAML_SCALAR)
+      CDEM_TRY(copy(item, &summary->warning[summary->warnings++], fault));
+  return CDEM_OK;
+}
+
+/* ---- the whole ---- */
 
 static cdem_status take_all(cdem_yaml *yaml, cdem_summary_file *summary, cdem_fault *fault) {
   const cdem_yaml_node *root = cdem_yaml_root(yaml);
@@ -81,6 +128,11 @@ static cdem_status take_all(cdem_yaml *yaml, cdem_summary_file *summary, cdem_fa
   CDEM_NEW(summary->result, results->children / 2, fault);
   CDEM_YAML_EACH(yaml, results, name, map)
   CDEM_TRY(take_result(yaml, name, map, settings, &summary->result[summary->results++], fault));
+  const cdem_yaml_node *sums = cdem_yaml_find(yaml, root, "checksums");
+  CDEM_TRY(take_facts(yaml, root, "", summary, fault));
+  if (sums != NULL && sums->kind == CDEM_YAML_MAP)
+    CDEM_TRY(take_facts(yaml, sums, "checksums.", summary, fault));
+  CDEM_TRY(take_warnings(yaml, cdem_yaml_find(yaml, root, "warnings"), summary, fault));
   return cdem_yaml_finish(yaml, fault);
 }
 
@@ -111,6 +163,21 @@ void cdem_summary_file_release(cdem_summary_file *summary) {
     free(summary->result[i].of);
     free(summary->result[i].take);
   }
+  for (int64_t i = 0; i < summary->facts; i++) {
+    free(summary->fact[i].name);
+    free(summary->fact[i].text);
+  }
+  for (int64_t i = 0; i < summary->warnings; i++)
+    free(summary->warning[i]);
   free(summary->result);
+  free(summary->fact);
+  free(summary->warning);
   *summary = (cdem_summary_file){0};
+}
+
+const char *cdem_summary_fact_find(const cdem_summary_file *summary, const char *name) {
+  for (int64_t i = 0; i < summary->facts; i++)
+    if (strcmp(summary->fact[i].name, name) == 0)
+      return summary->fact[i].text;
+  return NULL;
 }

@@ -51,6 +51,13 @@ void cdem_run_label(const char *name, const char *unit, char text[CDEM_RUN_LABEL
            unit[0] != '\0' ? "]" : "");
 }
 
+int cdem_run_history_find(const cdem_table *table, const char *name) {
+  char probe[160];
+  int column = cdem_table_find(table, name);
+  snprintf(probe, sizeof probe, "probe.%s", name);
+  return column >= 0 ? column : cdem_table_find(table, probe);
+}
+
 const char *cdem_run_bare_name(const cdem_table *history, int column) {
   const char *name = history->column[column].name;
   return name + (strncmp(name, "probe.", 6) == 0 ? 6 : 0);

@@ -1,4 +1,5 @@
-/* Private to run: axes and legends in units that keep their numbers short. */
+/* Axes and legends in units that keep their numbers short, for the figures of a run and whoever
+ * shows its numbers. */
 #ifndef CDEM_RUN_AXIS_H
 #define CDEM_RUN_AXIS_H
 
@@ -19,6 +20,8 @@ enum { CDEM_RUN_LABEL = 200 };
  * none.
  */
 void cdem_run_label(const char *name, const char *unit, char text[CDEM_RUN_LABEL]);
+/* A column as the case names it: in full, or the bare name of a probe; -1 when there is none. */
+int cdem_run_history_find(const cdem_table *table, const char *name);
 /* A probe's own name, without "probe.". */
 const char *cdem_run_bare_name(const cdem_table *history, int column);
 /* A column times a scale as a new array [history->rows]; NaN where it has no value. */

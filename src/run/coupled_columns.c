@@ -177,6 +177,8 @@ static void put_book(cdem_run_row *row, const cdem_run_coupled *c) {
   cdem_run_put(row, "J", exchange, "exchange");
   cdem_run_put(row, "", scale > 0.0 ? fabs(coarse.error + fine.error + exchange) / scale : 0.0,
                "energy_error");
+  if (c->has_body && c->has_grains)
+    cdem_run_put(row, "J", fine.driven, "fine.driven");
   if (c->guides > 0)
     cdem_run_put(row, "J", fine.guided, "fine.guided");
   if (c->loads > 0)

@@ -33,13 +33,6 @@ static cdem_status put_all(cdem_run_row *row, cdem_run_setup *setup) {
   return row->status;
 }
 
-int cdem_run_history_find(const cdem_table *table, const char *name) {
-  char probe[160];
-  int column = cdem_table_find(table, name);
-  snprintf(probe, sizeof probe, "probe.%s", name);
-  return column >= 0 ? column : cdem_table_find(table, probe);
-}
-
 /* ---- names in the case ---- */
 
 static cdem_status check_column(const cdem_run_setup *setup, const cdem_table *table,

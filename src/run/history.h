@@ -2,6 +2,7 @@
 #ifndef CDEM_RUN_HISTORY_H
 #define CDEM_RUN_HISTORY_H
 
+#include "run/axis.h"
 #include "run/setup.h"
 
 /* Declares the columns in a zeroed table and checks every column that the case names. Declaring
@@ -9,8 +10,5 @@
 cdem_status cdem_run_history_init(cdem_run_setup *setup, cdem_table *table, cdem_fault *fault);
 /* The state as the table's only row. */
 cdem_status cdem_run_history_row(cdem_run_setup *setup, cdem_table *table, cdem_fault *fault);
-
-/* A column as the case names it: in full, or the bare name of a probe; -1 when there is none. */
-int cdem_run_history_find(const cdem_table *table, const char *name);
 
 #endif

@@ -193,15 +193,38 @@ static cdem_status run_on(const cdem_run_options *options, cdem_run_summary *sum
   return status;
 }
 
-cdem_status cdem_run(const cdem_run_options *options, cdem_run_summary *summary,
-                     cdem_fault *fault) {
+/* ---- warnings: passed on, and kept for the summary ---- */
+
+typedef struct {
+  const cdem_run_options *options;
+  cdem_run_summary *summary;
+} listener;
+
+/* One that there is no memory for has been passed on at least. */
+static void hear(void *context, const char *message) {
+  const listener *l = context;
+  cdem_run_summary *to = l->summary;
+  warn(l->options, message);
+  if (cdem_grow(&to->warning, &to->warning_capacity, to->warnings + 1, sizeof *to->warning, NULL) ==
+          CDEM_OK &&
+      (to->warning[to->warnings] = cdem_copy_text(message, NULL)) != NULL)
+    to->warnings++;
+}
+
+cdem_status cdem_run(const cdem_run_options *given, cdem_run_summary *summary, cdem_fault *fault) {
+  const cdem_warnings warnings = {.context = &(listener){given, summary}, .warn = hear};
+  cdem_run_options heard = *given, *options = &heard;
   *summary = (cdem_run_summary){0};
+  options->warnings = &warnings;
   CDEM_REQUIRE(options->resume || options->path != NULL, fault, CDEM_USAGE, "a case is wanted");
   CDEM_REQUIRE(options->check || (options->folder != NULL && options->folder[0] != '\0'), fault,
                CDEM_USAGE, "a folder for the results is wanted");
   CDEM_REQUIRE(!options->resume || (options->overrides == 0 && !options->check), fault, CDEM_USAGE,
                "a run that is continued keeps its case: no --set and no --check");
-  if (options->check)
-    return check_only(options, summary, fault);
-  return options->resume ? run_on(options, summary, fault) : run_new(options, summary, fault);
+  cdem_status status = options->check    ? check_only(options, summary, fault)
+                       : options->resume ? run_on(options, summary, fault)
+                                         : run_new(options, summary, fault);
+  if (status != CDEM_OK)
+    cdem_run_summary_release(summary);
+  return status;
 }

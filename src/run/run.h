@@ -31,6 +31,7 @@ typedef struct {
   bool figures;                 /* draw them */
   bool frames;                  /* write them */
   const char *version, *commit; /* for summary.json */
+  const char *build;            /* likewise, how the program was compiled; NULL: not said */
   const cdem_progress *progress;
   const cdem_warnings *warnings;
 } cdem_run_options;
@@ -54,6 +55,8 @@ typedef struct {
   double energy_error;                          /* |error| of the book by its scale */
   int results;                                  /* key results with a reference */
   int failed;                                   /* ... that are off by more than their tolerance */
+  int64_t warnings, warning_capacity;
+  char **warning;  /* [warnings] given by this run since it was last started */
   cdem_table keys; /* name, value, unit, reference, difference (relative; absolute where the
                       reference is 0); no unit where a factor was applied */
 } cdem_run_summary;

@@ -14,6 +14,9 @@ enum { NAME, VALUE, UNIT, REFERENCE, DIFFERENCE }; /* columns of summary->keys *
 
 void cdem_run_summary_release(cdem_run_summary *summary) {
   free(summary->title);
+  for (int64_t i = 0; i < summary->warnings; i++)
+    free(summary->warning[i]);
+  free(summary->warning);
   cdem_table_release(&summary->keys);
   *summary = (cdem_run_summary){0};
 }
@@ -146,6 +149,8 @@ static void put_program(cdem_json *json, const cdem_run_output *output) {
   cdem_json_string(json, "program", "cdem");
   cdem_json_string(json, "version", options->version);
   cdem_json_string(json, "commit", options->commit);
+  if (options->build != NULL)
+    cdem_json_string(json, "build", options->build);
   cdem_json_string(json, "title", cdem_run_values(setup)->title);
   cdem_json_string(json, "case", options->path);
   cdem_json_open(json, "checksums", '{');
@@ -161,6 +166,13 @@ static void put_progress(cdem_json *json, const cdem_run_summary *summary) {
   cdem_json_real(json, "time", summary->time);
   cdem_json_real(json, "time_step", summary->step);
   cdem_json_string(json, "step_limited_by", summary->limiter);
+}
+
+static void put_warnings(cdem_json *json, const cdem_run_summary *summary) {
+  cdem_json_open(json, "warnings", '[');
+  for (int64_t i = 0; i < summary->warnings; i++)
+    cdem_json_string(json, NULL, summary->warning[i]);
+  cdem_json_close(json, ']');
 }
 
 /* The last row of the history: energies, cracks, reactions, probes. */
@@ -207,6 +219,7 @@ cdem_status cdem_run_summary_write(const cdem_run_output *output, const cdem_tab
   put_progress(&json, summary);
   output->setup->engine->put_sizes(&json, summary);
   cdem_json_real(&json, "energy_error", summary->energy_error);
+  put_warnings(&json, summary);
   put_results(&json, values, summary);
   put_last(&json, history);
   cdem_run_put_settings(&json, values);
