@@ -139,10 +139,10 @@ int cmd_export(int argc, char **argv) {
   settings s = {.options = {.density = NAN, .thickness = 1.0}};
   cdem_export_summary summary;
   cdem_fault fault = {0};
+  s.options.output = s.output;
   command_parse(&argp, argc, argv, &s);
   check(&s);
   const cdem_warnings warnings = command_warnings();
-  s.options.output = s.output;
   s.options.warnings = &warnings;
   if (cdem_export(&s.options, &summary, &fault) != CDEM_OK)
     return command_fail(&fault);

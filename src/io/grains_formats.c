@@ -45,23 +45,24 @@ const cdem_grain_format *cdem_grain_format_of(const char *path) {
 
 enum { LOST = 256 };
 
-static void add_lost(char lost[LOST], int64_t count, const char *what) {
+/* One more thing that is lost, `count` of them; 0: none. */
+static void add_lost(char lost[LOST], int64_t count, const char *one, const char *many) {
   size_t used = strlen(lost);
   if (count == 0)
     return;
   if (used > 0)
     used += (size_t)snprintf(lost + used, LOST - used, ", ");
   if (count > 1)
-    snprintf(lost + used, LOST - used, "%" PRId64 " %s", count, what);
+    snprintf(lost + used, LOST - used, "%" PRId64 " %s", count, many);
   else
-    snprintf(lost + used, LOST - used, "%s", what);
+    snprintf(lost + used, LOST - used, "%s", one);
 }
 
-static int64_t guided_grains(const cdem_grains *grains) {
-  int64_t count = 0;
+static bool has_guided(const cdem_grains *grains) {
   for (int64_t i = 0; i < grains->grains; i++)
-    count += (grains->motion[i] & CDEM_GRAIN_GUIDED) != 0;
-  return count;
+    if ((grains->motion[i] & CDEM_GRAIN_GUIDED) != 0)
+      return true;
+  return false;
 }
 
 static void find_lost(const cdem_scene *scene, const cdem_grain_format *format, char lost[LOST]) {
@@ -69,21 +70,22 @@ static void find_lost(const cdem_scene *scene, const cdem_grain_format *format, 
   if (!format->masses)
     return;
   if (scene->dem == NULL) {
-    add_lost(lost, 1, "a law of contact (a table has none; export a case)");
+    add_lost(lost, 1, "a law of contact (a table has none; export a case)", NULL);
     return;
   }
   const cdem_dem_options *model = cdem_dem_options_of(scene->dem);
-  add_lost(lost, model->walls, "walls");
-  add_lost(lost, model->bonds, "bonds");
-  add_lost(lost, model->confinement != NULL, "the plates and sides of the specimen");
+  add_lost(lost, model->walls, "a wall", "walls");
+  add_lost(lost, model->bonds, "a bond", "bonds");
+  add_lost(lost, model->confinement != NULL, "the plates and sides of the specimen", NULL);
   const char *law = format->lacks(scene);
-  add_lost(lost, law != NULL, law);
+  add_lost(lost, law != NULL, law, NULL);
   bool turns = (model->rolling != NULL && model->rolling->wants > 0) ||
                (model->twisting != NULL && model->twisting->wants > 0);
-  add_lost(lost, turns, "rolling and twisting resistance");
-  add_lost(lost, model->mass_damping > 0.0 || model->local_damping > 0.0, "mass or local damping");
-  add_lost(lost, guided_grains(&scene->grains), "guidances of grains, which are free");
-  add_lost(lost, scene->dem->steps > 0, "what contacts remember of their sliding");
+  add_lost(lost, turns, "rolling and twisting resistance", NULL);
+  add_lost(lost, model->mass_damping > 0.0 || model->local_damping > 0.0, "mass or local damping",
+           NULL);
+  add_lost(lost, has_guided(&scene->grains), "the guidance of grains, which are free", NULL);
+  add_lost(lost, scene->dem->steps > 0, "what contacts remember of their sliding", NULL);
 }
 
 cdem_status cdem_write_scene(const char *path, const cdem_scene *scene, char lost[LOST],

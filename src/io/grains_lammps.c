@@ -50,7 +50,7 @@ static bool has_dashpots(const cdem_scene_contact *c) {
 
 static const char *lacks(const cdem_scene *scene) {
   if (!cdem_scene_has_law(scene, "linear") && !cdem_scene_has_law(scene, "hertz"))
-    return "the law of contact, which LAMMPS does not have";
+    return "the law of contact (linear and hertz are written)";
   for (int a = 0; a < scene->materials; a++)
     for (int b = a; b < scene->materials; b++) {
       cdem_scene_contact c;
@@ -158,8 +158,8 @@ static void put_head(const cdem_scene *scene, const char *lost, int types, FILE 
           "#> units         si\n#> dimension     %d\n#> atom_style    sphere\n"
           "#> boundary      %s %s %s\n#> newton        off\n#> comm_modify   vel yes\n"
           "#> read_data     ${data}\n",
-          scene->grains.dim, is_periodic(scene, 0) ? "p" : "s", is_periodic(scene, 1) ? "p" : "s",
-          is_periodic(scene, 2) ? "p" : "s");
+          scene->grains.dim, is_periodic(scene, 0) ? "p" : "m", is_periodic(scene, 1) ? "p" : "m",
+          is_periodic(scene, 2) ? "p" : "m");
   cdem_stream_real(stream, "#> neighbor      ", 0.2 * largest, " bin\n");
   fputs("#> neigh_modify  delay 0 every 1 check yes\n", stream);
   put_model(scene, types, stream);

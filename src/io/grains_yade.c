@@ -13,7 +13,7 @@
 
 static const char *lacks(const cdem_scene *scene) {
   if (!cdem_scene_has_law(scene, "linear"))
-    return "the law of contact, which YADE does not have";
+    return "the law of contact (linear is written)";
   return cdem_scene_has_dashpots(scene) ? "the dashpots of contacts" : NULL;
 }
 
