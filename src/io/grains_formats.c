@@ -65,6 +65,13 @@ static bool has_guided(const cdem_grains *grains) {
   return false;
 }
 
+static bool deforms(const cdem_cell *cell) {
+  for (int e = 0; cell != NULL && e < 9; e++)
+    if (cell->rate[e].points > 0 || cell->servo[e / 3])
+      return true;
+  return false;
+}
+
 static void find_lost(const cdem_scene *scene, const cdem_grain_format *format, char lost[LOST]) {
   lost[0] = '\0';
   if (!format->masses)
@@ -77,6 +84,7 @@ static void find_lost(const cdem_scene *scene, const cdem_grain_format *format, 
   add_lost(lost, model->walls, "a wall", "walls");
   add_lost(lost, model->bonds, "a bond", "bonds");
   add_lost(lost, model->confinement != NULL, "the plates and sides of the specimen", NULL);
+  add_lost(lost, deforms(model->cell), "how the cell deforms", NULL);
   const char *law = format->lacks(scene);
   add_lost(lost, law != NULL, law, NULL);
   bool turns = (model->rolling != NULL && model->rolling->wants > 0) ||

@@ -146,8 +146,10 @@ static void put_head(const cdem_scene *scene, const char *lost, int types, FILE 
   for (int64_t i = 0; i < scene->grains.grains; i++)
     largest = fmax(largest, scene->grains.radius[i]);
   fputs("# Atom types:", stream);
-  for (int m = 0; m < scene->materials; m++)
-    fprintf(stream, "%s %d %s", m > 0 ? "," : "", m + 1, scene->material[m].name);
+  for (int m = 0; m < scene->materials; m++) {
+    fprintf(stream, "%s %d ", m > 0 ? "," : "", m + 1);
+    cdem_scene_put_name(stream, scene->material[m].name, '\0');
+  }
   fprintf(stream, "%s\n",
           types > scene->materials ? "; driven grains of each have types behind these" : "");
   if (scene->grains.dim == 2)

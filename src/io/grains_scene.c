@@ -50,6 +50,18 @@ bool cdem_scene_has_dashpots(const cdem_scene *scene) {
   return false;
 }
 
+void cdem_scene_put_name(FILE *stream, const char *name, char quote) {
+  if (quote != '\0')
+    fputc(quote, stream);
+  for (const unsigned char *c = (const unsigned char *)name; *c != '\0'; c++) {
+    if (quote != '\0' && (*c == (unsigned char)quote || *c == '\\'))
+      fputc('\\', stream);
+    fputc(*c < ' ' ? '?' : *c, stream);
+  }
+  if (quote != '\0')
+    fputc(quote, stream);
+}
+
 void cdem_scene_put_head(const cdem_scene *scene, const char *program, const char *lost,
                          FILE *stream) {
   fprintf(stream, "# %" PRId64 " %s for %s, by cdem " CDEM_VERSION "; SI units\n",

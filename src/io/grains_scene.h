@@ -63,6 +63,9 @@ static inline bool cdem_scene_is_driven(const cdem_scene *scene, int64_t grain) 
 }
 /* kg */
 double cdem_scene_mass(const cdem_scene *scene, int64_t grain);
+/* A name between two `quote` (0: none), with a backslash before these; control characters are '?'.
+ */
+void cdem_scene_put_name(FILE *stream, const char *name, char quote);
 /* "# grains for PROGRAM ..." and what the file lacks. */
 void cdem_scene_put_head(const cdem_scene *scene, const char *program, const char *lost,
                          FILE *stream);

@@ -2,6 +2,7 @@
  *
  * Law: linear without dashpots is Law2_ScGeom_FrictPhys_CundallStrack, with stiffness and friction
  * by pairs of materials. Dashpots and the other laws have no twin there that holds for all masses.
+ * Velocities are those of half a step before, as YADE's integrator keeps them and ours does.
  * Masses and moments of inertia are set one by one, because YADE's bodies are spheres of their own
  * density also where discs are meant. */
 #include "io/grains_scene.h"
@@ -9,7 +10,7 @@
 #include "io/text.h"
 
 #include <inttypes.h>
-#include <math.h>
+#include <stdlib.h>
 
 static const char *lacks(const cdem_scene *scene) {
   if (!cdem_scene_has_law(scene, "linear"))
@@ -53,23 +54,36 @@ static void put_vector(FILE *stream, const double x[3], const char *after) {
   fputs(after, stream);
 }
 
-/* A name as Python reads it. */
-static void put_name(FILE *stream, const char *name) {
-  fputc('\'', stream);
-  for (const char *c = name; *c != '\0'; c++)
-    fprintf(stream, *c == '\'' || *c == '\\' ? "\\%c" : "%c", *c);
-  fputc('\'', stream);
+/* Velocity and spin of all grains as YADE keeps them: [grains][6]. */
+static cdem_status find_motion(const cdem_scene *scene, double **motion, cdem_fault *fault) {
+  const cdem_grains *g = &scene->grains;
+  int32_t *grain = NULL;
+  CDEM_NEW(*motion, 6 * g->grains, fault);
+  for (int64_t i = 0; i < 6 * g->grains; i++)
+    (*motion)[i] = i % 6 < 3 ? g->velocity[i / 6 * 3 + i % 6] : g->spin[i / 6 * 3 + i % 6 - 3];
+  if (scene->dem == NULL)
+    return CDEM_OK;
+  CDEM_NEW(grain, g->grains, fault);
+  for (int64_t i = 0; i < g->grains; i++)
+    grain[i] = (int32_t)i;
+  cdem_dem_motions_of(scene->dem, g->grains, grain, *motion);
+  free(grain);
+  return CDEM_OK;
 }
 
-static void put_grains(const cdem_scene *scene, FILE *stream) {
-  const cdem_grains *g = &scene->grains;
+static void put_materials(const cdem_scene *scene, FILE *stream) {
   fputs("materials = [  # name, density\n", stream);
   for (int m = 0; m < scene->materials; m++) {
     fputs("    (", stream);
-    put_name(stream, scene->material[m].name);
+    cdem_scene_put_name(stream, scene->material[m].name, '\'');
     cdem_stream_real(stream, ", ", scene->material[m].density, "),\n");
   }
-  fputs("]\ngrains = [  # centre, radius, mass, material, driven, velocity, spin\n", stream);
+  fputs("]\n", stream);
+}
+
+static void put_grains(const cdem_scene *scene, const double *motion, FILE *stream) {
+  const cdem_grains *g = &scene->grains;
+  fputs("grains = [  # centre, radius, mass, material, driven, velocity, spin\n", stream);
   for (int64_t i = 0; i < g->grains; i++) {
     fputs("    (", stream);
     put_vector(stream, g->xyz + 3 * i, "");
@@ -77,8 +91,8 @@ static void put_grains(const cdem_scene *scene, FILE *stream) {
     cdem_stream_real(stream, ", ", cdem_scene_mass(scene, i), "");
     fprintf(stream, ", %d, %s, ", g->material[i],
             cdem_scene_is_driven(scene, i) ? "True" : "False");
-    put_vector(stream, g->velocity + 3 * i, ", ");
-    put_vector(stream, g->spin + 3 * i, "),\n");
+    put_vector(stream, motion + 6 * i, ", ");
+    put_vector(stream, motion + 6 * i + 3, "),\n");
   }
   fputs("]\n", stream);
 }
@@ -95,11 +109,13 @@ static void put_contacts(const cdem_scene *scene, FILE *stream) {
   fputs("}\n", stream);
 }
 
-static void put_file(const cdem_scene *scene, const char *lost, FILE *stream) {
+static void put_file(const cdem_scene *scene, const double *motion, const char *lost,
+                     FILE *stream) {
   bool disc = scene->grains.dim == 2;
   cdem_scene_put_head(scene, "YADE", lost, stream);
   fputs("# Use: exec(open('THIS_FILE').read()), then O.run().\n", stream);
-  put_grains(scene, stream);
+  put_materials(scene, stream);
+  put_grains(scene, motion, stream);
   fprintf(stream, "blocked = '%s'\nshare = %s  # of m r^2, moment of inertia\n", disc ? "zXY" : "",
           disc ? "0.5" : "0.4");
   fputs(bodies, stream);
@@ -122,9 +138,16 @@ static cdem_status write_yade(const char *path, const cdem_scene *scene, const c
                "cannot write '%s': a cell of YADE begins at the origin and is periodic in all "
                "directions; write .data, or take the cell out of the case",
                path);
-  CDEM_TRY(cdem_output_open(path, &output, fault));
-  put_file(scene, lost, cdem_output_stream(output));
-  return cdem_output_commit(&output, fault);
+  double *motion = NULL;
+  cdem_status status = find_motion(scene, &motion, fault);
+  if (status == CDEM_OK)
+    status = cdem_output_open(path, &output, fault);
+  if (status == CDEM_OK) {
+    put_file(scene, motion, lost, cdem_output_stream(output));
+    status = cdem_output_commit(&output, fault);
+  }
+  free(motion);
+  return status;
 }
 
 const cdem_grain_format cdem_grain_format_yade = {
