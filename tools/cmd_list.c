@@ -4,6 +4,7 @@
 #include "command.h"
 #include "dem/packing.h"
 #include "fdem/template.h"
+#include "io/grains_scene.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,6 +42,11 @@ static void list_formats(void) {
   printf("output formats of `cdem springs` (endings)\n");
   for (int i = 0; cdem_springs_format_at(i) != NULL; i++) {
     const cdem_springs_format *format = cdem_springs_format_at(i);
+    printf("  %-6s %-14s %s\n", format->name, format->endings, format->help);
+  }
+  printf("files of grains of `cdem export`; csv and vtp also of `cdem pack` (endings)\n");
+  for (int i = 0; cdem_grain_format_at(i) != NULL; i++) {
+    const cdem_grain_format *format = cdem_grain_format_at(i);
     printf("  %-6s %-14s %s\n", format->name, format->endings, format->help);
   }
 }

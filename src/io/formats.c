@@ -4,7 +4,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <strings.h>
 
 static const cdem_springs_format *const formats[] = {
     &cdem_springs_csv, &cdem_springs_hdf5, &cdem_springs_vtp,    &cdem_springs_vtu,
@@ -23,21 +22,9 @@ const cdem_springs_format *cdem_springs_format_find(const char *name) {
   return NULL;
 }
 
-/* Does `path` end with one of the endings parted by spaces? */
-static bool ends_with_one_of(const char *path, const char *endings) {
-  size_t length = strlen(path);
-  for (const char *e = endings; *e != '\0'; e += strspn(e, " ")) {
-    size_t n = strcspn(e, " ");
-    if (length > n && strncasecmp(path + length - n, e, n) == 0)
-      return true;
-    e += n;
-  }
-  return false;
-}
-
 const cdem_springs_format *cdem_springs_format_of(const char *path) {
   for (int i = 0; i < FORMATS; i++)
-    if (ends_with_one_of(path, formats[i]->endings))
+    if (cdem_ends_with_one_of(path, formats[i]->endings))
       return formats[i];
   return NULL;
 }

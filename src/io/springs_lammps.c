@@ -101,10 +101,10 @@ static void put_head(const cdem_matrix_writer *matrix, const cdem_line_pairs *pa
           "# Input: sed -n 's/^#> //p' THIS_FILE > net.in; lmp -in net.in -var data THIS_FILE\n"
           "#> units        si\n"
           "#> dimension    %d\n"
-          "#> boundary     s s %s\n"
+          "#> boundary     m m %s\n"
           "#> atom_style   bond\n"
           "#> bond_style   harmonic\n",
-          matrix->sparse.dofs, matrix->sparse.dofs == 2 ? "p" : "s");
+          matrix->sparse.dofs, matrix->sparse.dofs == 2 ? "p" : "m");
   cdem_stream_real(stream, "#> comm_modify  cutoff ", 2.0 * pairs->longest, "\n");
   if (list->balanced)
     fputs("#> fix          balance all property/atom d_bx d_by d_bz\n"

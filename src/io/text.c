@@ -163,3 +163,14 @@ void cdem_stream_real(FILE *stream, const char *before, double value, const char
   fwrite(text, 1, (size_t)(cdem_put_real(text, value) - text), stream);
   fputs(after, stream);
 }
+
+bool cdem_ends_with_one_of(const char *path, const char *endings) {
+  size_t length = strlen(path);
+  for (const char *e = endings; *e != '\0'; e += strspn(e, " ")) {
+    size_t n = strcspn(e, " ");
+    if (length > n && strncasecmp(path + length - n, e, n) == 0)
+      return true;
+    e += n;
+  }
+  return false;
+}

@@ -7,6 +7,7 @@
 #ifndef CDEM_IO_TEXT_H
 #define CDEM_IO_TEXT_H
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -22,6 +23,9 @@ static inline char *cdem_put_text(char *at, const char *text) {
 
 /* `before`, the number, `after`. */
 void cdem_stream_real(FILE *stream, const char *before, double value, const char *after);
+
+/* Does `path` end with one of the endings parted by spaces? In small or capital letters. */
+bool cdem_ends_with_one_of(const char *path, const char *endings);
 
 /* The number at the start of `text` in C notation, *end behind it (= text when there is none). */
 double cdem_get_real(const char *text, char **end);

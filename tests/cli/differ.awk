@@ -6,7 +6,7 @@ FNR == NR { for (c = 2; c <= 4; c++) ours[$1, c] = $c; nodes++; next }
   seen++
   for (c = 2; c <= 4; c++) {
     key = $1 SUBSEP c
-    if (!(key in ours)) { print name ": node " $1 " is not ours"; failed = 1; exit }
+    if (!(key in ours)) { print name ": row " $1 " is not ours"; failed = 1; exit }
     d = ours[key] - $c; v = ours[key]
     if (d < 0) d = -d
     if (v < 0) v = -v
@@ -15,7 +15,7 @@ FNR == NR { for (c = 2; c <= 4; c++) ours[$1, c] = $c; nodes++; next }
   }
 }
 END {
-  printf "%s: %d nodes, largest force %.6e N, largest difference %.2e of it (allowed %s)\n", name, seen, largest,
+  printf "%s: %d rows, largest number %.6e, largest difference %.2e of it (allowed %s)\n", name, seen, largest,
     (largest > 0 ? worst / largest : 1), bound
   exit !(!failed && seen == nodes && nodes > 0 && largest > 0 && worst <= bound * largest)
 }
