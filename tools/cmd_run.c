@@ -17,7 +17,6 @@ enum {
   OPTION_NO_FRAMES,
   OPTION_JSON,
   OPTION_CHECK,
-  MOST_OVERRIDES = 64,
   MOST_PATH = 3800 /* leaves room for the names in the folder */
 };
 
@@ -38,18 +37,11 @@ static const struct argp_option option_table[] = {
 };
 
 typedef struct {
-  const char *path, *folder, *resume, *override[MOST_OVERRIDES];
-  int overrides, threads;
+  const char *path, *folder, *resume;
+  command_overrides set;
+  int threads;
   bool check, no_figures, no_frames, json;
 } settings;
-
-static void add_override(settings *s, const char *text) {
-  if (s->overrides == MOST_OVERRIDES)
-    command_usage("--set: %d values at most", MOST_OVERRIDES);
-  if (strchr(text, '=') == NULL)
-    command_usage("--set %s: KEY=VALUE is wanted", text);
-  s->override[s->overrides++] = text;
-}
 
 static const char *folder_name(const char *option, const char *text) {
   if (text[0] == '\0' || strlen(text) > MOST_PATH)
@@ -68,7 +60,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     s->resume = folder_name("--resume", text);
     return 0;
   case OPTION_SET:
-    add_override(s, text);
+    command_override(&s->set, text);
     return 0;
   case OPTION_THREADS:
     s->threads = (int)command_integer("--threads", text, 1, 1024);
@@ -106,7 +98,7 @@ static void check_settings(const settings *s) {
     command_usage("--resume takes the case of its folder; leave '%s' out", s->path);
   if (s->folder != NULL)
     command_usage("--resume writes into its own folder; leave -o out");
-  if (s->overrides > 0 || s->check)
+  if (s->set.count > 0 || s->check)
     command_usage("a run that is continued keeps its case: no --set and no --check");
 }
 
@@ -256,8 +248,8 @@ int cmd_run(int argc, char **argv) {
                                     .folder = folder,
                                     .resume = s.resume != NULL,
                                     .check = s.check,
-                                    .overrides = s.overrides,
-                                    .override = s.override,
+                                    .overrides = s.set.count,
+                                    .override = s.set.text,
                                     .threads = s.threads,
                                     .figures = !s.no_figures,
                                     .frames = !s.no_frames,

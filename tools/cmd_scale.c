@@ -17,8 +17,7 @@ enum {
   OPTION_NO_RULE,
   OPTION_KEEP_RATE,
   OPTION_SET,
-  OPTION_JSON,
-  MOST_OVERRIDES = 64
+  OPTION_JSON
 };
 
 static const struct argp_option option_table[] = {
@@ -44,8 +43,8 @@ static const struct argp_option option_table[] = {
 };
 
 typedef struct {
-  const char *path, *output, *override[MOST_OVERRIDES];
-  int overrides;
+  const char *path, *output;
+  command_overrides set;
   double h, length, time, mass, density, stress; /* NaN: not given */
   bool coarse, no_rule, keep_rate, json;
 } settings;
@@ -67,14 +66,6 @@ static bool parse_ratio(settings *s, int key, const char *text) {
   return true;
 }
 
-static void add_override(settings *s, const char *text) {
-  if (s->overrides == MOST_OVERRIDES)
-    command_usage("--set: %d values at most", MOST_OVERRIDES);
-  if (strchr(text, '=') == NULL)
-    command_usage("--set %s: KEY=VALUE is wanted", text);
-  s->override[s->overrides++] = text;
-}
-
 static error_t parse(int key, char *text, struct argp_state *state) {
   settings *s = state->input;
   if (parse_ratio(s, key, text))
@@ -93,7 +84,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     s->keep_rate = true;
     return 0;
   case OPTION_SET:
-    add_override(s, text);
+    command_override(&s->set, text);
     return 0;
   case OPTION_JSON:
     s->json = true;
@@ -307,8 +298,8 @@ int cmd_scale(int argc, char **argv) {
   const cdem_progress progress = {(void *)(uintptr_t)s.path, report_progress};
   const cdem_warnings warnings = command_warnings();
   const cdem_scale_options options = {.path = s.path,
-                                      .overrides = s.overrides,
-                                      .override = s.override,
+                                      .overrides = s.set.count,
+                                      .override = s.set.text,
                                       .output = s.output,
                                       .scaling = scaling,
                                       .progress = &progress,

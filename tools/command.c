@@ -31,6 +31,14 @@ void command_usage(const char *format, ...) {
   exit(cdem_status_exit_code(CDEM_USAGE));
 }
 
+void command_override(command_overrides *overrides, const char *text) {
+  if (overrides->count == COMMAND_MOST_OVERRIDES)
+    command_usage("--set: %d values at most", COMMAND_MOST_OVERRIDES);
+  if (strchr(text, '=') == NULL)
+    command_usage("--set %s: KEY=VALUE is wanted", text);
+  overrides->text[overrides->count++] = text;
+}
+
 void command_warn(const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);

@@ -56,6 +56,14 @@ double command_quantity(const char *option, const char *text, cdem_dimension dim
 double command_number(const char *option, const char *text);
 long command_integer(const char *option, const char *text, long least, long most);
 
+/* The texts of --set KEY=VALUE, in their order. */
+enum { COMMAND_MOST_OVERRIDES = 64 };
+typedef struct {
+  int count;
+  const char *text[COMMAND_MOST_OVERRIDES];
+} command_overrides;
+void command_override(command_overrides *overrides, const char *text);
+
 /* Flushes stdout; an error there (full disk, closed pipe) turns success into exit code 6. */
 int command_finish(int exit_code);
 

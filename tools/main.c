@@ -25,12 +25,21 @@ static int unknown(const char *name) {
   command_usage("there is no command '%s'", name);
 }
 
+static _Noreturn void wanted(void) {
+  static const char names[] =
+#define X(name, summary) ", " #name
+#include "commands.def"
+#undef X
+      ;
+  command_usage("a command is wanted: %s", names + strlen(", "));
+}
+
 int main(int argc, char **argv) {
   gsl_set_error_handler_off(); /* GSL's default handler aborts */
   signal(SIGPIPE, SIG_IGN);    /* a closed pipe is an error message, not a silent death */
   signal(SIGXFSZ, SIG_IGN);    /* likewise a file-size limit */
   if (argc < 2)
-    command_usage("a command is wanted: springs, poisson, run, verify, list or help");
+    wanted();
   if (strcmp(argv[1], "--version") == 0 || strcmp(argv[1], "-V") == 0) {
     version_print();
     return command_finish(0);

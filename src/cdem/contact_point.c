@@ -34,8 +34,8 @@ static double pass_share(double facing, double ratio) {
   return 0.5 + flat_share(facing) * (finer - 0.5);
 }
 
-double cdem_contact_weight(const cdem_contact *contact, const cdem_contact_point *point,
-                           int32_t master, const cdem_projection *p) {
+static double share_of(const cdem_contact *contact, const cdem_contact_point *point, int32_t master,
+                       const cdem_projection *p) {
   const cdem_contact_store *s = contact->store;
   double facing = -cdem_dot3(s->face[point->facet].normal, s->face[master].normal);
   /* Away from its corner a point stands for a flat facet only. */
@@ -208,7 +208,7 @@ double cdem_contact_lever(const cdem_contact *contact, const cdem_contact_point 
     t->node[k] = in.node[k];
     t->nodal[k / 3][k % 3] = in.coefficient[k];
   }
-  return cdem_contact_weight(contact, point, master, &p);
+  return share_of(contact, point, master, &p);
 }
 
 static void press(cdem_contact *contact, const cdem_contact_point *point, int32_t master,
@@ -218,7 +218,7 @@ static void press(cdem_contact *contact, const cdem_contact_point *point, int32_
   double corner[4][3], shape[4];
   cdem_contact_input in = {
       .law = cdem_contact_law_between(s, contact->blocks, point->facet, master), .gap = p->gap};
-  in.weight = cdem_contact_weight(contact, point, master, p);
+  in.weight = share_of(contact, point, master, p);
   in.whole = in.weight / p->cover;
   if (!(in.weight > 0.0)) {
     if (t->facet >= 0)

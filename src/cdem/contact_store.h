@@ -206,9 +206,6 @@ void cdem_contact_look(cdem_contact *contact, int32_t point, double floor, cdem_
 enum { CDEM_CONTACT_BEST = 16 }; /* `best` [CDEM_CONTACT_BEST], or NULL: of the first slots */
 /* Of live_point[live]: the slot that is too deep inside, or -1. */
 int64_t cdem_contact_point_step(cdem_contact *contact, int32_t live);
-/* The share of a point's area that acts on a projection: facing, coverage and two-pass part. */
-double cdem_contact_weight(const cdem_contact *contact, const cdem_contact_point *point,
-                           int32_t master, const cdem_projection *projection);
 
 /* Weight of a point on a facet, with its nodes and (in nodal[0]) their coefficients. */
 double cdem_contact_lever(const cdem_contact *contact, const cdem_contact_point *point,

@@ -9,9 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A node that was not touching and is found deeper than this part of its own size (of its share of
- * the surface) has come from behind or from the side: it is left alone. */
+/* A node touches where it comes through the face. One that was beyond the plane without touching
+ * has come from the side or from behind and is left alone until it is in front again: a spring that
+ * began with an overlap would make energy out of nothing. A node found deeper at once than this
+ * part of its own size (of its share of the surface) has not come through the face either. */
 static const double deepest_entry = 0.5;
+enum { AWAY, TOUCHES, PASSED }; /* values of `touch` */
 
 static cdem_status make_axes(const cdem_plate *plate, int dimension, cdem_plate_store *store,
                              cdem_fault *fault) {
@@ -153,7 +156,8 @@ typedef struct {
   cdem_plate_store *store;
 } plate_view;
 
-static bool within(const plate_view *v, int32_t i, const double place[2]) {
+/* Closer to the plate's middle than its edges and `more`. */
+static bool within(const plate_view *v, int32_t i, const double place[2], double more) {
   const cdem_mesh *mesh = v->solver->store->options.body->model->mesh;
   for (int k = 0; k < v->solver->store->dimension - 1; k++) {
     double from = place[k];
@@ -162,7 +166,7 @@ static bool within(const plate_view *v, int32_t i, const double place[2]) {
     for (int c = 0; c < 3; c++)
       from += v->store->axis[k + 1][c] *
               (mesh->xyz[3 * (size_t)v->store->node[i] + (size_t)c] - v->plate->point[c]);
-    if (fabs(from) > v->plate->half[k])
+    if (fabs(from) > v->plate->half[k] + more)
       return false;
   }
   return true;
@@ -184,9 +188,26 @@ static double facing_area(const plate_view *v, int32_t i) {
   return fmax(area, 0.1 * v->store->share[i]);
 }
 
+/* Length that a node stands for. */
+static double size_of(const plate_view *v, int32_t i) {
+  const cdem_solver_store *s = v->solver->store;
+  return s->dimension == 2 ? v->store->share[i] / s->options.thickness : sqrt(v->store->share[i]);
+}
+
+/* A node that touches stays until all that it stands for has left the plate by the side. */
+static bool touches(const plate_view *v, int32_t i, double overlap, const double place[2]) {
+  double size = size_of(v, i);
+  if (!(overlap > 0.0) || v->store->touch[i] == PASSED)
+    return false;
+  if (v->store->touch[i] == TOUCHES)
+    return within(v, i, place, 0.5 * size);
+  return within(v, i, place, 0.0) && overlap <= deepest_entry * size;
+}
+
 /* Tangential force kt A slip, cut back to the friction; what slides between two evaluations takes
  * the mean of the forces before and after times the way: with the trapezoid of the works the book
- * closes exactly. */
+ * closes exactly. So it does where a node leaves by the side: what its spring still holds beyond
+ * that trapezoid is lost, and counted as friction. */
 static void node_forces(const plate_view *v, int32_t i, cdem_plate_sums *sums) {
   cdem_plate_store *p = v->store;
   const cdem_solver *solver = v->solver;
@@ -197,17 +218,15 @@ static void node_forces(const plate_view *v, int32_t i, cdem_plate_sums *sums) {
   double overlap = -(p->distance[i] + cdem_dot3(p->axis[0], relative));
   for (int k = 0; k < 2; k++)
     place[k] = cdem_dot3(p->axis[k + 1], relative);
-  bool touch = overlap > 0.0 && within(v, i, place);
-  double size = solver->store->dimension == 2 ? p->share[i] / solver->store->options.thickness
-                                              : sqrt(p->share[i]);
-  if (touch && !p->touch[i] && overlap > deepest_entry * size)
-    touch = false;
-  if (touch && !p->touch[i])
+  const bool before = p->touch[i] == TOUCHES, touch = touches(v, i, overlap, place);
+  if (touch && !before)
     p->area[i] = facing_area(v, i);
+  if (before && !touch && overlap > 0.0)
+    sums->friction += 0.5 * p->normal[i] * overlap;
   const double spring = v->plate->kt * p->area[i], normal_spring = v->plate->kn * p->area[i];
   if (touch) {
     force = normal_spring * overlap;
-    for (int k = 0; k < 2 && p->touch[i]; k++)
+    for (int k = 0; k < 2 && before; k++)
       slip[k] = p->slip[j + (size_t)k] + place[k] - p->last[j + (size_t)k];
     double tangential = spring * hypot(slip[0], slip[1]), most = v->plate->friction * force;
     for (int k = 0; k < 2 && tangential > most; k++)
@@ -215,7 +234,7 @@ static void node_forces(const plate_view *v, int32_t i, cdem_plate_sums *sums) {
   }
   for (int k = 0; k < 2; k++) {
     double *old = &p->slip[j + (size_t)k];
-    double way = p->touch[i] ? place[k] - p->last[j + (size_t)k] - (slip[k] - *old) : 0.0;
+    double way = before ? place[k] - p->last[j + (size_t)k] - (slip[k] - *old) : 0.0;
     sums->friction += 0.5 * spring * (*old + slip[k]) * way;
     for (int c = 0; c < solver->store->dimension; c++) {
       sums->before[c] -= spring * *old * p->axis[k + 1][c];
@@ -233,7 +252,7 @@ static void node_forces(const plate_view *v, int32_t i, cdem_plate_sums *sums) {
   }
   sums->stored += touch ? 0.5 * force * overlap : 0.0;
   p->normal[i] = force;
-  p->touch[i] = touch;
+  p->touch[i] = touch ? TOUCHES : overlap > 0.0 ? PASSED : AWAY;
 }
 
 static void plate_forces(cdem_solver *solver, const cdem_plate *plate, cdem_plate_store *store) {

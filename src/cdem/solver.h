@@ -67,7 +67,7 @@ typedef struct {
 
 /* A rigid plate that pushes surface nodes (all nodes of facets; overlap against the node's share of
  * the surface area) and reports its force. Finite when half > 0: nodes beyond its edges do not
- * touch. */
+ * touch, nor do those that come below its face from the side. */
 typedef struct {
   const char *name;
   double point[3], normal[3]; /* a point of the face, and out of the plate towards the body; unit */

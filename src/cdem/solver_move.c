@@ -276,7 +276,8 @@ static void move_chunk(const kick *k, int64_t chunk, double *sums) {
   }
 }
 
-void cdem_solver_gather(const cdem_solver *solver, int64_t chunks, double *sums) {
+/* Sums the first `chunks` rows of the partial sums. */
+static void gather_sums(const cdem_solver *solver, int64_t chunks, double *sums) {
   const double *partial = solver->store->partial;
   for (int64_t c = 0; c < chunks; c++)
     for (int k = 0; k < CDEM_SUMS; k++)
@@ -295,7 +296,7 @@ void cdem_solver_pass(const cdem_solver *solver, bool commit, double *after, dou
     move_chunk(&k, c, own);
     memcpy(s->partial + c * CDEM_SUMS, own, sizeof own);
   }
-  cdem_solver_gather(solver, chunks, sums);
+  gather_sums(solver, chunks, sums);
   int32_t clusters = s->options.interfaces != NULL ? s->options.interfaces->ties.clusters : 0;
   if (clusters == 0)
     return;
@@ -308,7 +309,7 @@ void cdem_solver_pass(const cdem_solver *solver, bool commit, double *after, dou
       move_cluster(&k, (int32_t)cluster, own);
     memcpy(s->partial + c * CDEM_SUMS, own, sizeof own);
   }
-  cdem_solver_gather(solver, chunks, sums);
+  gather_sums(solver, chunks, sums);
 }
 
 /* ---- the start ---- */

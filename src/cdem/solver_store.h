@@ -124,8 +124,6 @@ void cdem_solver_cluster(const cdem_solver *solver, int32_t cluster, cdem_point 
 void cdem_solver_pass(const cdem_solver *solver, bool commit, double *after, double *sums);
 /* v_{-1/2} from the velocities v_0 in solver->v. */
 void cdem_solver_start(cdem_solver *solver);
-/* Sums the first `chunks` rows of the partial sums. */
-void cdem_solver_gather(const cdem_solver *solver, int64_t chunks, double *sums);
 
 /* solver_loads.c: supports, loads, pressures, quiet boundaries. */
 cdem_status cdem_solver_supports_init(cdem_solver *solver, cdem_fault *fault);

@@ -158,7 +158,8 @@ static void break_bond(cdem_dem *dem, cdem_bond_state *bond, const cdem_bond_for
     s->pair_touch[bond->pair] = 0;
 }
 
-void cdem_bond_add(const cdem_bond_forces *f, double *a, double *b) {
+/* Adds to the forces of A and B. */
+static void add_forces(const cdem_bond_forces *f, double *a, double *b) {
   double turn[3];
   cdem_cross3(f->n, f->shear, turn);
   for (int c = 0; c < 3; c++) {
@@ -190,9 +191,9 @@ void cdem_bonds_forces(cdem_dem *dem, int32_t chunk, double step) {
       continue;
     }
     part->sum[CDEM_DEM_DAMPED] += damped;
-    cdem_bond_add(&f, cdem_force(s, bond->owner),
-                  bond->target >= 0 ? cdem_force(s, bond->target)
-                                    : core->far + 8 * (-1 - bond->target));
+    add_forces(&f, cdem_force(s, bond->owner),
+               bond->target >= 0 ? cdem_force(s, bond->target)
+                                 : core->far + 8 * (-1 - bond->target));
     if (s->pair_image != NULL)
       for (int r = 0; r < 3; r++) {
         part->image[bond->image][r] += f.force[r];

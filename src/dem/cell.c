@@ -142,13 +142,6 @@ static void edge_velocities(const cdem_cell *cell, const double l[9], double ste
   cdem_product3(l, middle, velocity);
 }
 
-void cdem_cell_image_velocities(const cdem_cell *cell, const double l[9], double step,
-                                double velocity[27][3]) {
-  double m[9];
-  edge_velocities(cell, l, step, m);
-  combine(cell, m, velocity);
-}
-
 void cdem_cell_advance(cdem_cell *cell, const double l[9], double step) {
   double velocity[9];
   edge_velocities(cell, l, step, velocity);

@@ -46,11 +46,6 @@ double cdem_cell_volume(int dim, const cdem_cell *cell);
 void cdem_cell_widths(const cdem_cell *cell, double width[3]);
 /* Shift vectors of all image codes, for the cell as it is: shift [27][3]; free directions: 0. */
 void cdem_cell_images(const cdem_cell *cell, double shift[27][3]);
-/* Velocities of all images against the grain itself while the cell makes a step with L: the way
- * their shifts go in it by the step, so that it does not matter whether a grain is wrapped before
- * or after. */
-void cdem_cell_image_velocities(const cdem_cell *cell, const double l[9], double step,
-                                double velocity[27][3]);
 /* Rows of the matrix that gives places in the cell as parts of its edges, 0 .. 1 inside; free
  * directions: rows of the identity. */
 void cdem_cell_inverse(const cdem_cell *cell, double inverse[9]);

@@ -273,8 +273,6 @@ typedef struct {
 } cdem_bond_forces;
 void cdem_bond_evaluate(const cdem_dem *dem, cdem_bond_state *bond, double step,
                         cdem_bond_forces *out, double *damped);
-/* Adds to the forces of A and B. */
-void cdem_bond_add(const cdem_bond_forces *forces, double *a, double *b);
 
 /* ---- solver_step.c ---- */
 void cdem_dem_set_time(cdem_dem *dem, double time);

@@ -23,20 +23,10 @@ static double damped(double v, double push, double half) {
 }
 
 static void rigid(const cdem_fdem_store *s, int64_t g, double later, sums *sum) {
-  const double *center = s->center + 3 * g;
-  double v[3], l[3];
-  double force[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0}, next[3], lost[3], spin[3];
+  double v[3], l[3], force[3], moment[3], next[3], lost[3], spin[3];
   const double step = s->kick;
   double half = 0.5 * step * s->options.mass_damping;
-  for (int64_t i = s->first[g]; i < s->first[g + 1]; i++) {
-    const double *x = s->now + 3 * i, *f = s->force + 3 * i;
-    double arm[3] = {x[0] - center[0], x[1] - center[1], x[2] - center[2]}, part[3];
-    cdem_cross3(arm, f, part);
-    for (int c = 0; c < 3; c++) {
-      moment[c] += part[c];
-      force[c] += f[c];
-    }
-  }
+  cdem_fdem_resultant(s, g, force, moment);
   for (int c = 0; c < 3; c++) {
     double push = step * (force[c] / s->mass[g] + s->options.gravity[c]);
     v[c] = s->velocity[3 * g + c] + later * (push / step);

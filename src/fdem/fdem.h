@@ -119,8 +119,6 @@ typedef struct {
 void cdem_fdem_look(const cdem_fdem *fdem, const cdem_fdem_view *view);
 double cdem_fdem_mass(const cdem_fdem *fdem, int64_t grain);
 const cdem_template *cdem_fdem_shape(const cdem_fdem *fdem, int64_t grain);
-/* Where the nodes of a grain are: [nodes of its template][3], m. */
-void cdem_fdem_places(const cdem_fdem *fdem, int64_t grain, double *place);
 /* Surface nodes of a grain, borrowed: where they are, m, the contact force on each, N, and where
  * they are in the frame of the grain, from its centre, m; [surface nodes][3]. */
 typedef struct {
@@ -141,7 +139,6 @@ cdem_status cdem_fdem_touches(const cdem_fdem *fdem, int64_t *touches, cdem_fdem
 /* Force of the grains on a wall, where it is now and how fast. */
 void cdem_fdem_wall_now(const cdem_fdem *fdem, int wall, double force[3], double center[3],
                         double velocity[3]);
-void cdem_fdem_wall_move(cdem_fdem *fdem, int wall, const cdem_series velocity[3]);
 
 /* ---- of a specimen ---- */
 /* The high plate goes with this velocity along z from now on, in place of its servo. */

@@ -16,12 +16,9 @@ void cdem_fdem_look(const cdem_fdem *fdem, const cdem_fdem_view *view) {
   for (int64_t g = 0; g < s->grains; g++) {
     if (view->spin != NULL)
       cdem_fdem_spin_of(s, g, s->turn + 9 * g, s->momentum + 3 * g, view->spin + 3 * g);
-    if (view->force == NULL)
-      continue;
-    memset(view->force + 3 * g, 0, 3 * sizeof *view->force);
-    for (int64_t i = s->first[g]; i < s->first[g + 1]; i++)
-      for (int c = 0; c < 3; c++)
-        view->force[3 * g + c] += s->force[3 * i + c];
+    double moment[3];
+    if (view->force != NULL)
+      cdem_fdem_resultant(s, g, view->force + 3 * g, moment);
   }
   if (view->contacts != NULL) {
     cdem_contact_view seen = cdem_fdem_contact_view(s, 0.0);
@@ -46,22 +43,6 @@ cdem_fdem_nodes cdem_fdem_nodes_of(const cdem_fdem *fdem, int64_t g) {
                            .place = s->place + first};
 }
 
-void cdem_fdem_places(const cdem_fdem *fdem, int64_t g, double *place) {
-  const cdem_fdem_store *s = fdem->store;
-  const cdem_template *t = cdem_fdem_template(s, g);
-  const double *turn = s->turn + 9 * g, *q = s->q + s->mode[g];
-  for (int32_t i = 0; i < t->nodes; i++) {
-    double x[3];
-    for (int c = 0; c < 3; c++)
-      x[c] = s->radius[g] * t->mesh.xyz[3 * (int64_t)i + c];
-    for (int k = 0; k < t->modes; k++)
-      for (int c = 0; c < 3; c++)
-        x[c] += t->mode[3 * ((int64_t)k * t->nodes + i) + c] * q[k];
-    for (int c = 0; c < 3; c++)
-      place[3 * (int64_t)i + c] = s->center[3 * g + c] + cdem_dot3(turn + 3 * c, x);
-  }
-}
-
 cdem_status cdem_fdem_touches(const cdem_fdem *fdem, int64_t *touches, cdem_fdem_touch **touch,
                               cdem_fault *fault) {
   cdem_contact_view view = cdem_fdem_contact_view(fdem->store, 0.0);
@@ -76,8 +57,4 @@ void cdem_fdem_wall_now(const cdem_fdem *fdem, int wall, double force[3], double
     center[c] = s->wall[wall].center[c];
     velocity[c] = s->wall[wall].velocity[c];
   }
-}
-
-void cdem_fdem_wall_move(cdem_fdem *fdem, int wall, const cdem_series velocity[3]) {
-  cdem_wall_body_move(fdem->store->wall + wall, fdem->time, velocity, NULL);
 }

@@ -63,8 +63,7 @@ static void rotate(cdem_fdem_store *s, int64_t g, double step) {
   cdem_quaternion_matrix(s->quaternion + 4 * g, s->turn + 9 * g);
 }
 
-/* Force and moment about the centre of all that touches the grain. */
-static void resultant(const cdem_fdem_store *s, int64_t g, double force[3], double moment[3]) {
+void cdem_fdem_resultant(const cdem_fdem_store *s, int64_t g, double force[3], double moment[3]) {
   const double *center = s->center + 3 * g;
   for (int c = 0; c < 3; c++)
     force[c] = moment[c] = 0.0;
@@ -84,7 +83,7 @@ static bool move_rigid(cdem_fdem_store *s, int64_t g, double step, cdem_fdem_sum
   double force[3], moment[3], spin[3], mean[3], way = 0.0, power = 0.0;
   double half = 0.5 * s->kick * s->options.mass_damping;
   double *v = s->velocity + 3 * g, *l = s->momentum + 3 * g;
-  resultant(s, g, force, moment);
+  cdem_fdem_resultant(s, g, force, moment);
   for (int c = 0; c < 3; c++) {
     double total = force[c] + s->mass[g] * s->options.gravity[c];
     double next = ((1.0 - half) * v[c] + s->kick * total / s->mass[g]) / (1.0 + half);

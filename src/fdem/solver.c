@@ -26,7 +26,8 @@ cdem_contact_view cdem_fdem_contact_view(const cdem_fdem_store *s, double step) 
                              .step = step};
 }
 
-cdem_status cdem_fdem_forces(cdem_fdem_store *s, double step, cdem_fault *fault) {
+/* Forces for the places there are; the book follows. */
+static cdem_status contact_forces(cdem_fdem_store *s, double step, cdem_fault *fault) {
   cdem_contact_view view = cdem_fdem_contact_view(s, step);
   const cdem_contact_forces out = {s->force, s->wall_force, s->wall_stiff, s->stiff};
   cdem_contact_book book = {0};
@@ -40,7 +41,7 @@ cdem_status cdem_fdem_forces(cdem_fdem_store *s, double step, cdem_fault *fault)
 }
 
 static cdem_status evaluate(cdem_fdem *fdem, double step, cdem_fault *fault) {
-  cdem_status status = cdem_fdem_forces(fdem->store, step, fault);
+  cdem_status status = contact_forces(fdem->store, step, fault);
   if (status == CDEM_NUMERIC)
     cdem_fault_prefix(fault, "at t = %.6g s", fdem->time);
   if (status == CDEM_OK && fdem->store->confine != NULL)

@@ -88,10 +88,12 @@ void cdem_fdem_place_block(cdem_fdem_store *s, int32_t block, cdem_fdem_work *wo
 void cdem_fdem_spin_of(const cdem_fdem_store *s, int64_t grain, const double turn[9],
                        const double momentum[3], double spin[3]);
 
+/* Force, N, and moment about the centre, N m, of all that touches the grain. */
+void cdem_fdem_resultant(const cdem_fdem_store *s, int64_t grain, double force[3],
+                         double moment[3]);
+
 /* contact.c's view of this store. */
 cdem_contact_view cdem_fdem_contact_view(const cdem_fdem_store *s, double step);
-/* Forces for the places there are; the book follows. */
-cdem_status cdem_fdem_forces(cdem_fdem_store *s, double step, cdem_fault *fault);
 
 /* limit.c */
 cdem_status cdem_fdem_first_step(cdem_fdem *fdem, cdem_fault *fault);

@@ -132,24 +132,6 @@ cdem_status cdem_sparse_init(const cdem_model *model, cdem_sparse *sparse, cdem_
   return status;
 }
 
-cdem_status cdem_sparse_like(const cdem_sparse *from, cdem_sparse *sparse, cdem_fault *fault) {
-  cdem_sparse made = {.nodes = from->nodes, .dofs = from->dofs};
-  int64_t blocks = from->start[from->nodes];
-  made.node = cdem_allocate(from->nodes, sizeof *made.node, fault);
-  made.start = cdem_allocate((int64_t)from->nodes + 1, sizeof *made.start, fault);
-  made.column = cdem_allocate(blocks, sizeof *made.column, fault);
-  made.value = cdem_allocate(blocks * from->dofs * from->dofs, sizeof *made.value, fault);
-  if (made.node == NULL || made.start == NULL || made.column == NULL || made.value == NULL) {
-    cdem_sparse_release(&made);
-    return CDEM_MEMORY;
-  }
-  memcpy(made.node, from->node, (size_t)from->nodes * sizeof *made.node);
-  memcpy(made.start, from->start, ((size_t)from->nodes + 1) * sizeof *made.start);
-  memcpy(made.column, from->column, (size_t)blocks * sizeof *made.column);
-  *sparse = made;
-  return CDEM_OK;
-}
-
 void cdem_sparse_release(cdem_sparse *sparse) {
   free(sparse->node);
   free(sparse->start);

@@ -25,8 +25,6 @@ typedef struct {
 
 /* The zero matrix with the pattern of the model. Zero-initialise; release at any stage. */
 cdem_status cdem_sparse_init(const cdem_model *model, cdem_sparse *sparse, cdem_fault *fault);
-/* A zero matrix with the pattern of `from`. */
-cdem_status cdem_sparse_like(const cdem_sparse *from, cdem_sparse *sparse, cdem_fault *fault);
 void cdem_sparse_release(cdem_sparse *sparse);
 
 /* Block (row, column) by positions, or NULL when the pattern has none. */

@@ -1,8 +1,6 @@
 /* The columns of history.csv of a body. */
 #include "run/body.h"
 
-#include <math.h>
-
 static void put_energies(cdem_run_row *w, cdem_run_body *setup) {
   cdem_energy_book book = {0};
   double by_class[CDEM_CLASSES] = {0};
@@ -23,7 +21,7 @@ static void put_energies(cdem_run_row *w, cdem_run_body *setup) {
   cdem_run_put(w, "J", book.load, "load");
   cdem_run_put(w, "J", book.gravity, "gravity");
   cdem_run_put(w, "J", book.support, "support");
-  cdem_run_put(w, "", book.exchange > 0.0 ? fabs(book.error) / book.exchange : 0.0, "energy_error");
+  cdem_run_put_energy_error(w, book.error, book.exchange);
   cdem_run_put(w, "J", by_class[0], "energy_edge");
   cdem_run_put(w, "J", by_class[1], "energy_face");
   cdem_run_put(w, "J", by_class[2], "energy_body");
@@ -49,7 +47,6 @@ static void put_interfaces(cdem_run_row *w, const cdem_run_body *setup) {
 
 static void put_conditions(cdem_run_row *w, const cdem_run_body *setup) {
   const cdem_run_conditions *c = &setup->conditions;
-  static const char axis[] = "xyz";
   bool cosserat = setup->model.formulation == CDEM_PLANE_COSSERAT;
   for (int i = 0; i < c->supports; i++) {
     bool turns = cosserat && c->support[i].component == 2;
@@ -61,10 +58,8 @@ static void put_conditions(cdem_run_row *w, const cdem_run_body *setup) {
     double force[3] = {0}, moved[3] = {0};
     if (!w->declare)
       cdem_solver_plate(&setup->solver, i, force, moved);
-    for (int k = 0; k < setup->model.dimension; k++)
-      cdem_run_put(w, "N", force[k], "plate.%s.f%c", c->plate[i].name, axis[k]);
-    for (int k = 0; k < setup->model.dimension; k++)
-      cdem_run_put(w, "m", moved[k], "plate.%s.moved_%c", c->plate[i].name, axis[k]);
+    cdem_run_put_vector(w, "N", setup->model.dimension, force, "plate.%s.f", c->plate[i].name);
+    cdem_run_put_vector(w, "m", setup->model.dimension, moved, "plate.%s.moved_", c->plate[i].name);
   }
 }
 

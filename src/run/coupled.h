@@ -109,8 +109,6 @@ cdem_run_cell_numbers cdem_run_coupled_cell(int dim, const double stress[6],
 
 /* coupled_columns.c, coupled_frames.c, coupled_pictures.c */
 void cdem_run_coupled_columns(cdem_run_setup *run, cdem_run_row *row);
-cdem_status cdem_run_coupled_look(const cdem_run_coupled *c, cdem_run_fine *found,
-                                  cdem_fault *fault);
 cdem_status cdem_run_coupled_frames(cdem_run_setup *run, int64_t index, const cdem_frame_sink *sink,
                                     cdem_fault *fault);
 cdem_status cdem_run_coupled_pictures(cdem_run_setup *run, const char *folder, const char *tag,

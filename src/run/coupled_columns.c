@@ -102,8 +102,7 @@ static cdem_status look_strayed(const cdem_run_coupled *c, cdem_run_fine *found,
   return status;
 }
 
-cdem_status cdem_run_coupled_look(const cdem_run_coupled *c, cdem_run_fine *found,
-                                  cdem_fault *fault) {
+static cdem_status look(const cdem_run_coupled *c, cdem_run_fine *found, cdem_fault *fault) {
   *found = (cdem_run_fine){INFINITY, -INFINITY, INFINITY, -INFINITY, 0.0, 0.0, 0};
   if (!c->has_grains)
     return look_cells(c, found, fault);
@@ -135,15 +134,12 @@ static void add_force(const cdem_run_coupled *c, const char *name, double force[
 }
 
 static void put_load(cdem_run_row *row, const cdem_run_coupled *c, const char *name) {
-  static const char axis[] = "xyz";
   double force[3] = {0}, moved[3] = {0};
   int dim = (int)cdem_run_values(c->run)->grains.dimension;
   if (!row->declare)
     add_force(c, name, force, moved);
-  for (int k = 0; k < dim; k++)
-    cdem_run_put(row, "N", force[k], "load.%s.f%c", name, axis[k]);
-  for (int k = 0; k < dim; k++)
-    cdem_run_put(row, "m", moved[k], "load.%s.moved_%c", name, axis[k]);
+  cdem_run_put_vector(row, "N", dim, force, "load.%s.f", name);
+  cdem_run_put_vector(row, "m", dim, moved, "load.%s.moved_", name);
 }
 
 static void put_loads(cdem_run_row *row, const cdem_run_coupled *c) {
@@ -175,8 +171,7 @@ static void put_book(cdem_run_row *row, const cdem_run_coupled *c) {
   double exchange = both ? fine.driven + c->coupling.work : 0.0;
   double scale = fmax(coarse.exchange, fine.exchange);
   cdem_run_put(row, "J", exchange, "exchange");
-  cdem_run_put(row, "", scale > 0.0 ? fabs(coarse.error + fine.error + exchange) / scale : 0.0,
-               "energy_error");
+  cdem_run_put_energy_error(row, coarse.error + fine.error + exchange, scale);
   if (c->has_body && c->has_grains)
     cdem_run_put(row, "J", fine.driven, "fine.driven");
   if (c->guides > 0)
@@ -189,7 +184,7 @@ void cdem_run_coupled_columns(cdem_run_setup *run, cdem_run_row *row) {
   cdem_run_coupled *c = cdem_run_coupled_of(run);
   cdem_run_fine f = {0};
   if (!row->declare && row->status == CDEM_OK)
-    row->status = cdem_run_coupled_look(c, &f, row->fault);
+    row->status = look(c, &f, row->fault);
   put_loads(row, c);
   cdem_run_put(row, "", f.volumetric_strain, "region.volumetric_strain");
   cdem_run_put(row, "", f.effective_strain, "region.effective_strain");

@@ -96,13 +96,10 @@ static void put_energies(cdem_run_row *row, cdem_run_deformable *d) {
   cdem_run_put(row, "J", book.numerical, "numerical");
   cdem_run_put(row, "J", book.gravity, "gravity");
   cdem_run_put(row, "J", book.walls, "walls");
-  cdem_run_put(row, "", book.exchange > 0.0 ? fabs(book.error) / book.exchange : 0.0,
-               "energy_error");
+  cdem_run_put_energy_error(row, book.error, book.exchange);
 }
 
 static void put_assembly(cdem_run_row *row, cdem_run_deformable *d) {
-  static const char *const component[] = {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"};
-  static const int order[] = {0, 4, 8, 5, 2, 1};
   summary found = {0};
   if (!row->declare && row->status == CDEM_OK)
     row->status = look(d, &found, row->fault);
@@ -118,21 +115,19 @@ static void put_assembly(cdem_run_row *row, cdem_run_deformable *d) {
   cdem_run_put(row, "", found.pushes.anisotropy, "anisotropy");
   cdem_run_put(row, "", found.pushes.mechanical, "mechanical");
   cdem_run_put(row, "", found.pushes.rattlers, "rattlers");
-  for (int i = 0; i < 6; i++)
-    cdem_run_put(row, "Pa", found.stress[order[i]], "stress.%s", component[order[i]]);
+  cdem_run_put_stress(row, 3, found.stress);
 }
 
 static void put_walls(cdem_run_row *row, const cdem_run_deformable *d) {
-  static const char axis[] = "xyz";
   for (int w = 0; w < d->grains->walls; w++) {
     const cdem_wall *wall = &d->grains->wall[w];
-    double force[3] = {0.0}, center[3] = {0.0}, velocity[3];
+    double force[3] = {0.0}, center[3] = {0.0}, velocity[3], moved[3];
     if (!row->declare)
       cdem_fdem_wall_now(&d->fdem, w, force, center, velocity);
     for (int k = 0; k < 3; k++)
-      cdem_run_put(row, "N", force[k], "wall.%s.f%c", wall->name, axis[k]);
-    for (int k = 0; k < 3; k++)
-      cdem_run_put(row, "m", center[k] - wall->center[k], "wall.%s.moved_%c", wall->name, axis[k]);
+      moved[k] = center[k] - wall->center[k];
+    cdem_run_put_vector(row, "N", 3, force, "wall.%s.f", wall->name);
+    cdem_run_put_vector(row, "m", 3, moved, "wall.%s.moved_", wall->name);
   }
 }
 

@@ -7,16 +7,6 @@
 
 /* ---- from the case to the solver ---- */
 
-static cdem_status build_grains(cdem_run_deformable *d, const cdem_state *checkpoint,
-                                cdem_fault *fault) {
-  cdem_run_grains *g = d->grains;
-  CDEM_TRY(cdem_run_grains_materials(g, fault));
-  CDEM_TRY(cdem_run_grains_contacts(g, fault));
-  CDEM_TRY(cdem_case_is_triaxial(&g->run->cases) ? cdem_run_grains_triaxial(g, fault)
-                                                 : cdem_run_grains_walls(g, checkpoint, fault));
-  return cdem_run_deformable_solver(d, fault);
-}
-
 static cdem_status build(cdem_run_setup *run, const cdem_state *checkpoint, cdem_fault *fault) {
   cdem_run_deformable *d = cdem_allocate(1, sizeof *d, fault);
   if (d == NULL)
@@ -27,7 +17,8 @@ static cdem_status build(cdem_run_setup *run, const cdem_state *checkpoint, cdem
   run->context = d;
   CDEM_TRY(status);
   CDEM_NEW(d->velocity, 3 * d->grains->grains.grains, fault);
-  return build_grains(d, checkpoint, fault);
+  CDEM_TRY(cdem_run_grains_surround(d->grains, checkpoint, fault));
+  return cdem_run_deformable_solver(d, fault);
 }
 
 static void release(cdem_run_setup *run) {
@@ -78,12 +69,7 @@ static cdem_status advance(cdem_run_setup *run, int64_t steps, cdem_fault *fault
 
 static cdem_status look(cdem_run_setup *run, cdem_fault *fault) {
   cdem_fdem *fdem = &cdem_run_deformable_of(run)->fdem;
-  double limit = cdem_fdem_limit(fdem);
-  if (!isnan(cdem_run_values(run)->step) && fdem->step > limit)
-    return cdem_case_fail(&run->cases, "step", CDEM_NUMERIC, fault,
-                          "at t = %.6g s the step of %.4g s has become unstable: the limit is now "
-                          "%.4g s, set by %s; take a smaller one, or leave `step` out",
-                          fdem->time, fdem->step, limit, run->limiter);
+  CDEM_TRY(cdem_run_check_stable(run, cdem_fdem_limit(fdem), run->limiter, fault));
   cdem_fdem_follow(fdem);
   return CDEM_OK;
 }

@@ -190,12 +190,8 @@ static cdem_fdem_options options_of(const cdem_run_deformable *d) {
 
 /* The key that a failure of the solver's making has to do with. */
 static const char *key_of(const cdem_run_deformable *d, const char *message, char key[96]) {
-  char quoted[80];
-  for (int w = 0; w < d->grains->walls; w++) {
-    snprintf(quoted, sizeof quoted, "wall '%.64s'", d->grains->wall[w].name);
-    if (strstr(message, quoted) != NULL)
-      return cdem_run_named_key(key, "walls", d->grains->wall[w].name, "");
-  }
+  if (cdem_run_wall_key(d->run, message, key) != NULL)
+    return key;
   return strstr(message, "step") != NULL ? "step" : "grains.deformable";
 }
 
@@ -213,11 +209,8 @@ cdem_status cdem_run_deformable_solver(cdem_run_deformable *d, cdem_fault *fault
   d->run->threads = d->run->options->threads > 0 ? d->run->options->threads : omp_get_max_threads();
   cdem_fdem_options options = options_of(d);
   status = cdem_fdem_init(&options, &d->fdem, &local);
-  if (status == CDEM_INPUT)
-    return cdem_case_fail(&d->run->cases, key_of(d, local.message, key), status, fault, "%s",
-                          local.message);
   if (status != CDEM_OK)
-    return cdem_fail(fault, status, "%s", local.message);
+    return cdem_run_refused(d->run, key_of(d, local.message, key), status, local.message, fault);
   snprintf(d->run->limiter, sizeof d->run->limiter, "%s of deformable grains",
            options.integration == CDEM_FDEM_IMPLICIT ? "contacts" : "vibrations");
   return cdem_run_check_step(d->run, cdem_fdem_limit(&d->fdem), fault);

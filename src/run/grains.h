@@ -49,10 +49,13 @@ typedef struct {
   int64_t bands_step;            /* ... this step; -1: none yet */
 } cdem_run_grains;
 
-/* Grains at their places; then everything up to the solver; then that. Where the first fails
- * nothing is made. */
+/* Grains at their places; then materials, contacts and walls, as grains that deform have them, too;
+ * then those and everything else up to the solver; then that. Where the first fails nothing is
+ * made. */
 cdem_status cdem_run_grains_create(cdem_run_setup *run, const cdem_state *checkpoint,
                                    cdem_run_grains **grains, cdem_fault *fault);
+cdem_status cdem_run_grains_surround(cdem_run_grains *g, const cdem_state *checkpoint,
+                                     cdem_fault *fault);
 cdem_status cdem_run_grains_build(cdem_run_grains *g, const cdem_state *checkpoint,
                                   cdem_fault *fault);
 

@@ -72,17 +72,10 @@ static void put_energies(cdem_run_row *row, cdem_run_grains *g) {
     cdem_run_put(row, "J", book.pressure, "pressure");
   }
   cdem_run_put(row, "J", book.circulating, "circulating");
-  cdem_run_put(row, "", book.exchange > 0.0 ? fabs(book.error) / book.exchange : 0.0,
-               "energy_error");
+  cdem_run_put_energy_error(row, book.error, book.exchange);
 }
 
 static void put_assembly(cdem_run_row *row, cdem_run_grains *g) {
-  static const struct {
-    const char *name;
-    int at;
-    bool solid; /* 3-D only */
-  } component[] = {{"xx", 0, false}, {"yy", 4, false}, {"zz", 8, true},
-                   {"yz", 5, true},  {"xz", 2, true},  {"xy", 1, false}};
   summary found = {0};
   if (!row->declare && row->status == CDEM_OK)
     row->status = look(g, &found, row->fault);
@@ -96,14 +89,10 @@ static void put_assembly(cdem_run_row *row, cdem_run_grains *g) {
     cdem_run_put(row, "", row->declare ? 0.0 : (double)cdem_dem_bonds_broken(&g->dem),
                  "bonds_broken");
   cdem_run_put(row, "", found.all.solid, "solid");
-  for (size_t i = 0; i < sizeof component / sizeof *component; i++)
-    if (g->dim == 3 || !component[i].solid)
-      cdem_run_put(row, "Pa", found.all.stress[component[i].at], "stress.%s", component[i].name);
+  cdem_run_put_stress(row, g->dim, found.all.stress);
 }
 
 static void put_walls(cdem_run_row *row, const cdem_run_grains *g) {
-  static const char axis[] = "xyz";
-  int first = g->dim == 3 ? 0 : 2; /* discs turn about z only */
   double sum[3] = {0};
   for (int w = 0; !row->declare && w < g->walls; w++) {
     cdem_dem_wall at;
@@ -111,19 +100,19 @@ static void put_walls(cdem_run_row *row, const cdem_run_grains *g) {
     for (int k = 0; k < 3; k++)
       sum[k] += at.force[k];
   }
-  for (int k = 0; g->walls > 0 && k < g->dim; k++)
-    cdem_run_put(row, "N", sum[k], "walls.f%c", axis[k]);
+  if (g->walls > 0)
+    cdem_run_put_vector(row, "N", g->dim, sum, "walls.f");
   for (int w = 0; w < g->walls; w++) {
     const char *name = g->wall[w].name;
     cdem_dem_wall at = {0};
     if (!row->declare)
       cdem_dem_wall_now(&g->dem, w, &at);
-    for (int k = 0; k < g->dim; k++)
-      cdem_run_put(row, "N", at.force[k], "wall.%s.f%c", name, axis[k]);
-    for (int k = first; k < 3; k++)
-      cdem_run_put(row, "N m", at.moment[k], "wall.%s.m%c", name, axis[k]);
-    for (int k = 0; k < g->dim; k++)
-      cdem_run_put(row, "m", at.moved[k], "wall.%s.moved_%c", name, axis[k]);
+    cdem_run_put_vector(row, "N", g->dim, at.force, "wall.%s.f", name);
+    if (g->dim == 3)
+      cdem_run_put_vector(row, "N m", 3, at.moment, "wall.%s.m", name);
+    else /* discs turn about z only */
+      cdem_run_put(row, "N m", at.moment[2], "wall.%s.mz", name);
+    cdem_run_put_vector(row, "m", g->dim, at.moved, "wall.%s.moved_", name);
   }
 }
 

@@ -118,8 +118,8 @@ static cdem_status check_pair(cdem_run_grains *g, int a, int b, int entry, cdem_
       &g->contact[a * g->materials + b], &g->material[a], &g->material[b], &model, &local);
   if (status == CDEM_OK)
     return CDEM_OK;
-  return cdem_case_fail(&g->run->cases, key_of(g, entry, local.message, key), status, fault, "%s",
-                        local.message);
+  return cdem_run_refused(g->run, key_of(g, entry, local.message, key), status, local.message,
+                          fault);
 }
 
 /* Pairs that never meet share the numbers of one that does: they must be good, not used. */

@@ -25,12 +25,17 @@ cdem_status cdem_run_grains_create(cdem_run_setup *run, const cdem_state *checkp
   return cdem_run_grains_start(g, checkpoint, fault);
 }
 
-cdem_status cdem_run_grains_build(cdem_run_grains *g, const cdem_state *checkpoint,
-                                  cdem_fault *fault) {
+cdem_status cdem_run_grains_surround(cdem_run_grains *g, const cdem_state *checkpoint,
+                                     cdem_fault *fault) {
   CDEM_TRY(cdem_run_grains_materials(g, fault));
   CDEM_TRY(cdem_run_grains_contacts(g, fault));
-  CDEM_TRY(cdem_case_is_triaxial(&g->run->cases) ? cdem_run_grains_triaxial(g, fault)
-                                                 : cdem_run_grains_walls(g, checkpoint, fault));
+  return cdem_case_is_triaxial(&g->run->cases) ? cdem_run_grains_triaxial(g, fault)
+                                               : cdem_run_grains_walls(g, checkpoint, fault);
+}
+
+cdem_status cdem_run_grains_build(cdem_run_grains *g, const cdem_state *checkpoint,
+                                  cdem_fault *fault) {
+  CDEM_TRY(cdem_run_grains_surround(g, checkpoint, fault));
   CDEM_TRY(cdem_run_grains_cell(g, fault));
   CDEM_TRY(cdem_run_grains_bonds(g, fault));
   CDEM_TRY(cdem_run_grains_solver(g, fault));

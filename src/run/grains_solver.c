@@ -54,12 +54,8 @@ int cdem_run_grains_threads(const cdem_run_grains *g) {
 /* The key that a failure of the solver's making has to do with. */
 static const char *key_of(const cdem_run_grains *g, const char *message, char key[96]) {
   const cdem_case_values *v = cdem_run_grains_values(g);
-  char quoted[80];
-  for (int64_t w = 0; w < v->walls.count; w++) {
-    snprintf(quoted, sizeof quoted, "'%.64s'", v->walls.item[w].name);
-    if (strstr(message, quoted) != NULL)
-      return cdem_run_named_key(key, "walls", v->walls.item[w].name, "");
-  }
+  if (cdem_run_wall_key(g->run, message, key) != NULL)
+    return key;
   if (strstr(message, "cell") != NULL && g->has_cell)
     return "cell";
   if (strstr(message, "bond") != NULL && g->bonds > 0)
@@ -83,11 +79,8 @@ cdem_status cdem_run_grains_solver(cdem_run_grains *g, cdem_fault *fault) {
   g->run->threads = cdem_run_grains_threads(g);
   fill_options(g);
   cdem_status status = cdem_dem_init(&g->options, &g->dem, &local);
-  if (status == CDEM_INPUT)
-    return cdem_case_fail(&g->run->cases, key_of(g, local.message, key), status, fault, "%s",
-                          local.message);
   if (status != CDEM_OK)
-    return cdem_fail(fault, status, "%s", local.message);
+    return cdem_run_refused(g->run, key_of(g, local.message, key), status, local.message, fault);
   double limit = cdem_dem_limit(&g->dem, g->run->limiter);
   CDEM_TRY(cdem_run_check_step(g->run, limit, fault));
   if (v->analysis == CDEM_ANALYSIS_DYNAMIC)
@@ -100,14 +93,8 @@ cdem_status cdem_run_grains_look(cdem_run_setup *run, cdem_fault *fault) {
   const cdem_case_values *v = cdem_run_values(run);
   char limiter[64];
   double limit = cdem_dem_limit(&g->dem, limiter), step = g->dem.step;
-  if (!isnan(v->step)) {
-    if (step <= limit)
-      return CDEM_OK;
-    return cdem_case_fail(&run->cases, "step", CDEM_NUMERIC, fault,
-                          "at t = %.6g s the step of %.4g s has become unstable: the limit is now "
-                          "%.4g s, set by %s; take a smaller one, or leave `step` out",
-                          g->dem.time, step, limit, limiter);
-  }
+  if (!isnan(v->step))
+    return cdem_run_check_stable(run, limit, limiter, fault);
   double wanted = v->safety * limit;
   if (step <= 1.2 * wanted && step >= 0.6 * wanted) /* a new step costs a little accuracy */
     return CDEM_OK;

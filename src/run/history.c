@@ -3,26 +3,8 @@
 
 #include "base/suggest.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-
-void cdem_run_put(cdem_run_row *row, const char *unit, double value, const char *format, ...) {
-  if (row->status != CDEM_OK)
-    return;
-  if (!row->declare) {
-    cdem_table_set_real(row->table, row->column++, value);
-    return;
-  }
-  char name[160], whole[200];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(name, sizeof name, format, arguments);
-  va_end(arguments);
-  bool plain = row->prefix != NULL && strchr(name, '.') == NULL;
-  snprintf(whole, sizeof whole, "%s%s", plain ? row->prefix : "", name);
-  row->status = cdem_table_add_column(row->table, whole, CDEM_COLUMN_REAL, unit, row->fault);
-}
 
 static cdem_status put_all(cdem_run_row *row, cdem_run_setup *setup) {
   const cdem_run_now now = cdem_run_where(setup);

@@ -19,6 +19,24 @@ const char *cdem_run_named_key(char text[96], const char *section, const char *n
   return text;
 }
 
+const char *cdem_run_wall_key(const cdem_run_setup *setup, const char *message, char text[96]) {
+  const cdem_case_values *values = cdem_run_values(setup);
+  char quoted[80];
+  for (int64_t w = 0; w < values->walls.count; w++) {
+    const char *name = values->walls.item[w].name;
+    snprintf(quoted, sizeof quoted, "wall '%.64s'", name);
+    if (strstr(message, quoted) != NULL)
+      return cdem_run_named_key(text, "walls", name, "");
+  }
+  return NULL;
+}
+
+cdem_status cdem_run_refused(const cdem_run_setup *setup, const char *key, cdem_status status,
+                             const char *message, cdem_fault *fault) {
+  return status == CDEM_INPUT ? cdem_case_fail(&setup->cases, key, status, fault, "%s", message)
+                              : cdem_fail(fault, status, "%s", message);
+}
+
 const char *const cdem_run_component[4] = {"x", "y", "z", "rotation"};
 
 uint64_t cdem_run_checksum(uint64_t sum, const void *data, size_t bytes) {
@@ -55,6 +73,17 @@ cdem_status cdem_run_check_step(const cdem_run_setup *setup, double limit, cdem_
                         "a step of %.4g s is unstable: the limit is %.4g s, set by %s; take a "
                         "smaller one, or leave `step` out to have it chosen",
                         step, limit, setup->limiter);
+}
+
+cdem_status cdem_run_check_stable(const cdem_run_setup *setup, double limit, const char *limiter,
+                                  cdem_fault *fault) {
+  const cdem_run_now now = cdem_run_where(setup);
+  if (isnan(cdem_run_values(setup)->step) || now.step <= limit)
+    return CDEM_OK;
+  return cdem_case_fail(&setup->cases, "step", CDEM_NUMERIC, fault,
+                        "at t = %.6g s the step of %.4g s has become unstable: the limit is now "
+                        "%.4g s, set by %s; take a smaller one, or leave `step` out",
+                        now.time, now.step, limit, limiter);
 }
 
 double cdem_run_even_step(const cdem_run_setup *setup, double step) {

@@ -36,6 +36,11 @@ static inline cdem_run_now cdem_run_where(const cdem_run_setup *setup) {
 const char *cdem_run_key(char text[96], const char *section, int64_t index, const char *rest);
 const char *cdem_run_named_key(char text[96], const char *section, const char *name,
                                const char *rest);
+/* "walls.NAME" into text [96] where a message speaks of that wall of the case; else NULL. */
+const char *cdem_run_wall_key(const cdem_run_setup *setup, const char *message, char text[96]);
+/* A failure of a solver's making as one of the run: CDEM_INPUT is pointed at the key. */
+cdem_status cdem_run_refused(const cdem_run_setup *setup, const char *key, cdem_status status,
+                             const char *message, cdem_fault *fault);
 extern const char *const cdem_run_component[4]; /* x y z rotation */
 
 /* FNV-1a, 64 bit (Fowler, Noll, Vo): enough to tell inputs apart, no more. */
@@ -44,6 +49,9 @@ static const uint64_t CDEM_RUN_SUM_START = 0xcbf29ce484222325u;
 
 /* Whether a wanted step is stable and `end` within reach; failures at `step` and `end`. */
 cdem_status cdem_run_check_step(const cdem_run_setup *setup, double limit, cdem_fault *fault);
+/* On the way: CDEM_NUMERIC where a step that the case gives is beyond the limit of now. */
+cdem_status cdem_run_check_stable(const cdem_run_setup *setup, double limit, const char *limiter,
+                                  cdem_fault *fault);
 /* The step next below `step` of which a whole number ends at `end`. */
 double cdem_run_even_step(const cdem_run_setup *setup, double step);
 

@@ -139,6 +139,52 @@ static void finite_plates_end(void **state) {
   rig_release(&r);
 }
 
+/* A block slides out from under one plate and against the edge of another that stands lower than
+ * its top: what comes from the side is left alone, what the first spring still held is lost as
+ * friction, and the book closes. */
+static void sideways_the_book_closes(void **state) {
+  (void)state;
+  rig r;
+  rig_options o = soft_block(true);
+  rig_make(&o, &r);
+  const double stiffness = 1e4, deep = 1e-3, speed = 2.0;
+  double *velocity = calloc((size_t)(3 * r.body.nodes), sizeof *velocity);
+  for (int32_t n = 0; n < r.body.nodes; n++)
+    velocity[3 * n] = speed;
+  cdem_plate plate[2] = {{.name = "left",
+                          .point = {0.0, 0.8 - deep, 0},
+                          .normal = {0, -1, 0},
+                          .axis = {1, 0, 0},
+                          .half = {0.5, 0.0},
+                          .kn = stiffness},
+                         {.name = "beside",
+                          .point = {1.6, 0.8 - 20.0 * deep, 0},
+                          .normal = {0, -1, 0},
+                          .axis = {1, 0, 0},
+                          .half = {0.5, 0.0},
+                          .kn = 1e5 * stiffness}};
+  r.options.plates = 2;
+  r.options.plate = plate;
+  r.options.velocity = velocity;
+  rig_start(&r);
+  cdem_energy_book book;
+  double force[3], moved[3];
+  cdem_solver_plate(&r.solver, 0, force, moved);
+  assert_true(force[1] > 0.0); /* two nodes touch */
+  while (r.solver.time < 0.4) {
+    rig_run(&r, 1);
+    cdem_solver_plate(&r.solver, 1, force, moved);
+    check_near(force[1], 0.0, 0.0, 0.0);
+  }
+  cdem_solver_plate(&r.solver, 0, force, moved);
+  check_near(force[1], 0.0, 0.0, 0.0);
+  cdem_solver_energies(&r.solver, &book);
+  assert_true(book.friction > 0.0);
+  check_below(fabs(book.error), 1e-3 * book.friction);
+  rig_release(&r);
+  free(velocity);
+}
+
 /* A block falls on a plate and bounces: momentum turns round, and the book closes but for the kinks
  * of the springs, which is one of the second order in the step, up to the chance of where in a step
  * a node comes. */
@@ -204,7 +250,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(plate_compresses_a_block), cmocka_unit_test(friction_holds_then_slides),
       cmocka_unit_test(finite_plates_end),        cmocka_unit_test(block_bounces),
-      cmocka_unit_test(bad_plates_are_named),
+      cmocka_unit_test(sideways_the_book_closes), cmocka_unit_test(bad_plates_are_named),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

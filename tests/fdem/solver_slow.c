@@ -49,8 +49,10 @@ static void test_spins(void **state) {
   check_near(coarse / fine, 4.0, 0.2, 0.0);
 }
 
-/* A ball dropped on a floor: it comes back without damping, and the book closes by the square of
- * the step, in both schemes. */
+/* A ball dropped on a floor: it comes back with the momentum that the floor has given it
+ * (velocities are those of half a step before), and the book closes by the square of the step, in
+ * both schemes.
+ */
 static void bounce(cdem_fdem_integration integration, double safety, double *error, double *back) {
   scene s;
   scene_of("cubesphere", 2, 40e9, 0.2, NULL, &s);
@@ -66,8 +68,13 @@ static void bounce(cdem_fdem_integration integration, double safety, double *err
   cdem_fdem_energies e;
   check_ok(cdem_fdem_init(&s.options, &fdem, &fault));
   *error = 0.0;
+  double given[3] = {0.0}; /* impulse of the floor, N s */
   while (fdem.time < 2e-3) {
-    check_ok(cdem_fdem_steps(&fdem, 5, &fault));
+    double force[3], center[3], speed[3];
+    cdem_fdem_wall_now(&fdem, 0, force, center, speed);
+    for (int c = 0; c < 3; c++)
+      given[c] -= fdem.step * force[c];
+    check_ok(cdem_fdem_steps(&fdem, 1, &fault));
     cdem_fdem_energies_now(&fdem, &e);
     *error = fmax(*error, fabs(e.error) / e.exchange);
   }
@@ -75,6 +82,11 @@ static void bounce(cdem_fdem_integration integration, double safety, double *err
   assert_true(e.friction > 0.0);
   double velocity[3];
   cdem_fdem_look(&fdem, &(cdem_fdem_view){.velocity = velocity});
+  for (int c = 0; c < 3; c++) {
+    double weight = s.options.gravity[c] * (fdem.time - 0.5 * fdem.step);
+    check_near(velocity[c], s.velocity[c] + weight + given[c] / cdem_fdem_mass(&fdem, 0), 0.0,
+               1e-12 * 2.0);
+  }
   *back = velocity[2];
   cdem_fdem_release(&fdem);
   scene_release(&s);
@@ -87,8 +99,8 @@ static void test_bounces(void **state) {
   bounce(CDEM_FDEM_EXPLICIT, 0.1, &error[1], &back[1]);
   check_below(error[1], 1e-5);
   assert_true(error[1] < 0.2 * error[0]);
-  check_below(back[1], 2.0);
-  check_near(back[1], 1.74, 0.01, 0.0); /* vibration and friction keep the rest */
+  assert_true(back[1] > 0.0);
+  check_below(back[1], 2.0); /* vibration and friction keep the rest */
   bounce(CDEM_FDEM_IMPLICIT, 0.1, &error[0], &back[0]);
   check_below(error[0], 1e-4);
   check_near(back[0], back[1], 0.01, 0.0);
