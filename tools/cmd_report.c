@@ -1,7 +1,7 @@
 /* cdem report RUN: one page of a run. */
+#include "base/version.h"
 #include "command.h"
 #include "report/report.h"
-#include "base/version.h"
 
 #include <string.h>
 
@@ -81,8 +81,10 @@ int cmd_report(int argc, char **argv) {
   command_parse(&argp, argc, argv, &s);
   if (s.folder == NULL)
     command_usage("the folder of a run is wanted: cdem report RUN");
-  const cdem_report_options options = {
-      .folder = s.folder, .path = s.path, .version = cdem_version(), .commit = cdem_version_commit()};
+  const cdem_report_options options = {.folder = s.folder,
+                                       .path = s.path,
+                                       .version = cdem_version(),
+                                       .commit = cdem_version_commit()};
   if (cdem_report(&options, &made, &fault) != CDEM_OK)
     return command_fail(&fault);
   say(&made);
