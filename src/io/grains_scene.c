@@ -1,5 +1,7 @@
 #include "io/grains_scene.h"
 
+#include "base/version.h"
+
 #include <inttypes.h>
 #include <math.h>
 
@@ -64,8 +66,8 @@ void cdem_scene_put_name(FILE *stream, const char *name, char quote) {
 
 void cdem_scene_put_head(const cdem_scene *scene, const char *program, const char *lost,
                          FILE *stream) {
-  fprintf(stream, "# %" PRId64 " %s for %s, by cdem " CDEM_VERSION "; SI units\n",
-          scene->grains.grains, scene->grains.dim == 2 ? "discs" : "spheres", program);
+  fprintf(stream, "# %" PRId64 " %s for %s, by cdem %s; SI units\n", scene->grains.grains,
+          scene->grains.dim == 2 ? "discs" : "spheres", program, cdem_version());
   if (lost[0] != '\0')
     fprintf(stream, "# NOT here: %s\n", lost);
 }
