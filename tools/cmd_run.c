@@ -193,6 +193,7 @@ static void print_summary(const cdem_run_summary *r, const char *folder) {
   }
   print_keys(&r->keys);
   printf("  results in    %s\n", folder);
+  printf("  one page      cdem report %s\n", folder);
 }
 
 static int print_json(const char *folder) {

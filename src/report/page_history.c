@@ -15,7 +15,8 @@ bool cdem_report_has_history(const cdem_report_source *source) {
 static void put_number(cdem_report_text *to, double value, const char *unit) {
   char text[CDEM_REPORT_NUMBER];
   cdem_report_raw(to, "<td class=\"number\">");
-  cdem_report_escaped(to, cdem_report_quantity(value, DIGITS, unit, text));
+  bool count = unit[0] == '\0' && fabs(value) < 1e15 && value == floor(value);
+  cdem_report_escaped(to, cdem_report_quantity(value, count ? 15 : DIGITS, unit, text));
   cdem_report_raw(to, "</td>");
 }
 
