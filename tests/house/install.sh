@@ -3,11 +3,11 @@
 # usage: install.sh BUILD_FOLDER SOURCE_FOLDER
 set -eu
 build=$1 source=$2
-root=$(mktemp -d)
-trap 'rm -rf "$root"' EXIT
-cmake --install "$build" --prefix "$root/first" >/dev/null
-mv "$root/first" "$root/moved"
-root=$root/moved
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cmake --install "$build" --prefix "$work/first" >/dev/null
+mv "$work/first" "$work/moved"
+root=$work/moved
 "$root/bin/cdem" --version | grep -q '^cdem [0-9]'
 for file in "$root/bin/cdem" "$(find "$root" -name 'libcdem.so.*.*')"; do
   ! readelf -d "$file" | grep -E 'R(UN)?PATH' || { echo "$file has a path of this machine in it"; exit 1; }
