@@ -7,15 +7,19 @@ cd "$1" || exit 2
 command -v gcovr >/dev/null || { echo "gcovr is not installed"; exit 77; }
 build=build/coverage
 report=$build/coverage.csv
+slow='^(verify.verify|fdem.specimen_slow|run.coupled_slow)$'
+# What gcov says belongs to no test's stderr. Tests whose program meets a full disk are left out: its counts would be cut off, too.
+export GCOV_ERROR_FILE="$PWD/$build/gcov.log"
 export OMP_NUM_THREADS=2 OMP_WAIT_POLICY=passive OPENBLAS_NUM_THREADS=1
 if [ "${2:-}" != --report ]; then
   cmake --preset coverage -G Ninja >/dev/null || exit 1
   cmake --build --preset coverage >"$build/build.log" || { tail -20 "$build/build.log"; exit 1; }
   find $build -name '*.gcda' -delete
-  ctest --test-dir $build -j "$(nproc)" -LE 'slow|long' -E '^house' --output-on-failure >"$build/tests.log" 2>&1 || { tail -60 "$build/tests.log"; exit 1; }
+  ctest --test-dir $build -j "$(nproc)" -LE 'slow|long' -E '^house|disk|bad-output' --output-on-failure >"$build/tests.log" 2>&1 || { tail -60 "$build/tests.log"; exit 1; }
   ctest --test-dir $build -j "$(nproc)" -R "$slow" --output-on-failure >"$build/tests.log" 2>&1 || { tail -60 "$build/tests.log"; exit 1; }
 fi
-gcovr --root . --filter 'src/' --object-directory $build --csv "$report" $build/src || exit 1
+# Counts of branches, which nobody reads here, can be negative where a run was killed; gcovr would stop at them.
+gcovr --gcov-ignore-parse-errors --root . --filter 'src/' --object-directory $build --csv "$report" $build/src || exit 1
 awk -F, '
   NR == 1 { for (i = 1; i <= NF; i++) column[$i] = i; next }
   { split($1, part, "/"); room = part[2]

@@ -46,6 +46,11 @@ for file in tests/small/*.yaml; do
   name=$(basename "$file" .yaml)
   watch "$name" "$cdem" run -q --threads 3 --no-figures "$file" -o "$work/$name"
 done
+# Bodies are cut into tiles of 512 cells, one a thread: a few steps of some that have several.
+for larger in "blocks mesh.count=[50,24]" "plate mesh.count=[40,16]" "solid mesh.count=[6,6,8]"; do
+  name=${larger%% *}
+  watch "$name, larger" "$cdem" run -q --threads 3 --no-figures --set "${larger#* }" --set end=20us "tests/small/$name.yaml" -o "$work/$name-larger"
+done
 watch springs "$cdem" springs data/meshes/mixed.msh -E 1 --nu 0.2 --certify -o "$work/springs.csv"
 watch pack "$cdem" pack loose --size 0.2,0.2,0.2 --radius 0.01 --count 300 --compact --fraction 0.5 --threads 3 -o "$work/loose.csv"
 if [ $target = all ]; then

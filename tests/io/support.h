@@ -72,15 +72,19 @@ static inline bool use_comma_locale(void) {
 /* Runs `body` in a child where no file may grow beyond `limit` bytes; returns what it returned, 255
  * when it died by a signal. */
 static inline int with_file_limit(rlim_t limit, int (*body)(const void *), const void *argument) {
+  int result = 0;
   fflush(NULL);
   pid_t child = fork();
   if (child == 0) {
-    struct rlimit bound = {limit, limit};
+    struct rlimit before, bound;
+    getrlimit(RLIMIT_FSIZE, &before);
+    bound = (struct rlimit){limit, before.rlim_max};
     signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &bound);
-    exit(body(argument));
+    result = body(argument);
+    setrlimit(RLIMIT_FSIZE, &before); /* counts of covered lines are written at the exit */
+    exit(result);
   }
-  int result = 0;
   waitpid(child, &result, 0);
   return WIFEXITED(result) ? WEXITSTATUS(result) : 255;
 }

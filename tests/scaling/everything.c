@@ -295,6 +295,55 @@ static void check_refused(const char *text, cdem_scaling scaling, const cdem_sca
   cdem_case_release(&read);
 }
 
+/* Columns of which the name is the unit. */
+static const char *unit_is_name(void *context, const char *column) {
+  (void)context;
+  return column;
+}
+
+/* The new value of a number of a result: `section` and `key`, or where it was not given `added`. */
+static double scaled_number(const cdem_scaled_list *list, const char *section, const char *key) {
+  char path[CDEM_CASE_PATH];
+  snprintf(path, sizeof path, "%s.%s", section, key);
+  for (int64_t i = 0; i < list->count; i++) {
+    const cdem_scaled *item = &list->item[i];
+    if (item->added == NULL ? strcmp(item->key, path) == 0
+                            : strcmp(item->section, section) == 0 && strcmp(item->added, key) == 0)
+      return item->value;
+  }
+  return NAN;
+}
+
+/* What is expected of a result has the dimension of its column, of where it is looked for, or of a
+ * quotient of columns; a factor that was one is written when it is no longer. */
+static void results_scale_by_what_they_are_of(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  cdem_case read = {0};
+  cdem_scaled_list list = {0};
+  const cdem_scaling_columns units = {NULL, unit_is_name};
+  const cdem_scaling scaling = cdem_scaling_exact((cdem_ratios){2.0, 4.0, 64.0});
+  read_case("end: 1\nmesh: a.msh\n" ROCK "results:\n"
+            "  peak: {of: N, take: max, reference: 3}\n"
+            "  slope: {of: N, take: slope, reference: 3}\n"
+            "  when: {of: N, take: place_of_max, reference: 3}\n"
+            "  where: {of: N, take: place_of_min, along: m, reference: 3}\n"
+            "  ratio: {of: N, against: kg}\n"
+            "  given: {of: N, against: [m, m], against_factor: 3}\n"
+            "  same: {of: N, against: N}\n",
+            &read);
+  check_ok(cdem_scaling_apply(&read, &scaling, &units, &list, &fault));
+  assert_true(scaled_number(&list, "results.peak", "reference") == 3.0 * 64 * 2 / 16);
+  assert_true(scaled_number(&list, "results.slope", "reference") == 3.0 * 64 * 2 / 64);
+  assert_true(scaled_number(&list, "results.when", "reference") == 3.0 * 4);
+  assert_true(scaled_number(&list, "results.where", "reference") == 3.0 * 2);
+  assert_true(scaled_number(&list, "results.ratio", "against_factor") == 8.0 / 64);
+  assert_true(scaled_number(&list, "results.given", "against_factor") == 3.0 * 8 / 2);
+  assert_true(isnan(scaled_number(&list, "results.same", "against_factor")));
+  cdem_scaled_list_release(&list);
+  cdem_case_release(&read);
+}
+
 #define TRIAXIAL                                                                                   \
   "grains:\n  dimension: 3\n  packing: {kind: loose, cylinder: yes, high: [1, 1, 1], radius: "     \
   "0.1, count: 80}\n  materials: {sand: {density: 2600}}\ncontacts: [{normal_stiffness: 1e6}]\n"   \
@@ -340,6 +389,7 @@ int main(void) {
       cmocka_unit_test(there_and_back_are_the_same_bits),
       cmocka_unit_test(defaults_are_written),
       cmocka_unit_test(grains_grow_in_their_domain),
+      cmocka_unit_test(results_scale_by_what_they_are_of),
       cmocka_unit_test(what_cannot_scale_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
