@@ -18,7 +18,7 @@ enum { CHANGE = 12, MOST_CHANGES = 8, STEPS = 3 };
 
 #define DISCS                                                                                      \
   "  materials: {sand: {density: 2000 kg/m3}}\n"                                                   \
-  "  packing: {kind: square, low: [0, 0], high: [60 mm, 40 mm], radius: 10 mm}\n"                  \
+  "  packing: {kind: cubic, low: [0, 0], high: [60 mm, 40 mm], radius: 10 mm}\n"                   \
   "contacts: [{normal_stiffness: 1e6 N/m, shear_ratio: 0.5, friction: 0.4, restitution: 0.5}]\n"
 
 static const char *const texts[] = {
@@ -39,14 +39,14 @@ static const char *const texts[] = {
     "  floor: {shape: plane, center: [0, 0], normal: [0, 1]}\n"
     "  lid: {shape: plate, center: [30 mm, 40 mm], normal: [0, -1], half_size: [30 mm], velocity: "
     "{y: -0.1 m/s}}\n"
-    "bonds: [{gap: 1 um, normal_stiffness: 1e6 N/m, shear_stiffness: 5e5 N/m, tension: 10 N, "
+    "bonds: [{gap: 0.01, normal_stiffness: 1e6 N/m, shear_stiffness: 5e5 N/m, tension: 10 N, "
     "cohesion: 10 N}]\n"
     "probes: {falling: {quantity: velocity, component: y}}\n",
     /* Discs in a periodic cell that is pressed together. */
     "end: 0.1 s\n"
     "grains:\n"
     "  dimension: 2\n" DISCS
-    "cell: {periodic: [x, y], low: [0, 0], high: [60 mm, 40 mm], stress: [-1 kPa, -1 kPa]}\n",
+    "cell: {rate: {yy: -1 1/s}, stress: {xx: 1 kPa}, servo_rate: 10 1/s}\n",
     /* Balls in a membrane. */
     "safety: 0.5\n"
     "grains:\n"
@@ -73,11 +73,11 @@ static const char *const texts[] = {
     "end: 6 ms\nstep: 50 us\n"
     "mesh: {shape: quad4, count: [4, 3], size: [4 m, 3 m], origin: [-2 m, -3 m]}\n"
     "materials: {soil: {model: cosserat-lattice, normal_stiffness: 2.5e8 N/m, shear_stiffness: 5e7 "
-    "N/m, rolling_stiffness: 3000 N m, radius: 0.25 m, density: 2042 kg/m3}}\n"
+    "N/m, rolling_stiffness: 3000 N m, radius: 0.1 m, density: 2042 kg/m3}}\n"
     "supports: [{group: y0, displacement: {x: 0, y: 0, rotation: 0}}]\n"
     "grains:\n"
     "  dimension: 2\n"
-    "  packing: {kind: square, low: [-2, -3], high: [2, 0], radius: 0.25 m, centres_inside: yes}\n"
+    "  packing: {kind: square, low: [-2, -3], high: [2, 0], radius: 0.1 m, centres_inside: yes}\n"
     "  materials: {disc: {density: 2600 kg/m3}}\n"
     "contacts: [{normal_stiffness: 2.5e8 N/m, shear_stiffness: 5e7 N/m, friction: 0.5, "
     "normal_dashpot: 0}]\n"
