@@ -63,27 +63,28 @@ static const char *const texts[] = {
     "grains:\n"
     "  dimension: 3\n"
     "  law: penalty\n"
-    "  deformable: {shape: tetrasphere, refinement: 1}\n"
-    "  packing: {kind: loose, low: [0, 0, 0], high: [0.1, 0.1, 0.1], radius: 20 mm, count: 4}\n"
+    "  deformable: {shape: cubesphere, refinement: 1}\n"
+    "  packing: {kind: loose, low: [0, 0, 0], high: [0.1, 0.1, 0.1], radius: 20 mm, count: 2}\n"
     "  materials: {rock: {density: 2650 kg/m3, young: 40 GPa, poisson: 0.2}}\n"
     "contacts: [{penalty_stiffness: 1e11 N/m3, friction: 0.3, damping_ratio: 0.2}]\n"
     "walls: {lid: {shape: plane, normal: [0, 0, -1], center: [0, 0, 0.1], velocity: {z: -50 "
     "m/s}}}\n",
     /* Discs in a medium. */
     "end: 6 ms\nstep: 50 us\n"
-    "mesh: {shape: quad4, count: [4, 3], size: [4 m, 3 m], origin: [-2 m, -3 m]}\n"
+    "mesh: {shape: quad4, count: [3, 2], size: [3 m, 2 m], origin: [-1.5 m, -2 m]}\n"
     "materials: {soil: {model: cosserat-lattice, normal_stiffness: 2.5e8 N/m, shear_stiffness: 5e7 "
-    "N/m, rolling_stiffness: 3000 N m, radius: 0.1 m, density: 2042 kg/m3}}\n"
+    "N/m, rolling_stiffness: 3000 N m, radius: 0.15 m, density: 2042 kg/m3}}\n"
     "supports: [{group: y0, displacement: {x: 0, y: 0, rotation: 0}}]\n"
     "grains:\n"
     "  dimension: 2\n"
-    "  packing: {kind: square, low: [-2, -3], high: [2, 0], radius: 0.1 m, centres_inside: yes}\n"
+    "  packing: {kind: square, low: [-1.5, -2], high: [1.5, 0], radius: 0.15 m, centres_inside: "
+    "yes}\n"
     "  materials: {disc: {density: 2600 kg/m3}}\n"
     "contacts: [{normal_stiffness: 2.5e8 N/m, shear_stiffness: 5e7 N/m, friction: 0.5, "
     "normal_dashpot: 0}]\n"
     "walls: {press: {shape: plate, center: [0, 0], normal: [0, -1], half_size: [0.5 m], velocity: "
     "{y: -1 m/s}}}\n"
-    "coupling: {regions: [{low: [-1, -2], high: [1, 0.1]}], rotation: scaled, cycles: 5}\n",
+    "coupling: {regions: [{low: [-0.5, -1], high: [0.5, 0.1]}], rotation: scaled, cycles: 5}\n",
 };
 enum { CASES = sizeof texts / sizeof texts[0] };
 
@@ -240,11 +241,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   cdem_status status = cdem_run_setup_init(&options, &state, &setup, &fault);
   if (status == CDEM_OK)
     status = setup.engine->restore(&setup, &state, &fault);
-  if (fuzz_is_read(status, &fault)) {
+  if (status == CDEM_OK)
     status = go_on(&setup, &fault);
-    fuzz_require(status != CDEM_NUMERIC || fault.message[0] != '\0', "a failure without a message");
-    fuzz_is_read(status == CDEM_NUMERIC ? CDEM_OK : status, &fault);
-  }
+  /* Motion may have run away already where the state was left. */
+  if (status == CDEM_NUMERIC)
+    status = fault.status = CDEM_INPUT;
+  fuzz_is_read(status, &fault);
   cdem_run_setup_release(&setup);
   cdem_state_release(&state);
   return 0;
