@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CHANGE = 12, MOST_CHANGES = 8, STEPS = 3 };
+enum { CHANGE = 12, MOST_CHANGES = 8, BEFORE = 30, STEPS = 3 };
 
 #define DISCS                                                                                      \
   "  materials: {sand: {density: 2000 kg/m3}}\n"                                                   \
@@ -27,10 +27,11 @@ static const char *const texts[] = {
     "mesh: {shape: quad4, count: [2, 2], size: [1 m, 1 m]}\n"
     "materials: {rock: {young: 10 GPa, poisson: 0.2, density: 2700 kg/m3}}\n"
     "blocks: {breakable: body}\n"
-    "interfaces: [{stiffness_factor: 4, tension: 1 kPa, cohesion: 1 kPa, friction: 0.3}]\n"
+    "interfaces: [{stiffness_factor: 4, tension: 1 Pa, cohesion: 1 Pa, friction: 0.1}]\n"
     "contact: {friction: 0.5, damping: 0.1}\n"
-    "supports: [{group: y0, displacement: {x: 0, y: 0}}]\n"
-    "plates: {press: {point: [0.5, 1], normal: [0, -1], velocity: {y: -1 m/s}, friction: 0.2}}\n"
+    "supports: [{group: y0, displacement: {x: 0, y: 0}}, {group: y1, velocity: {x: 1 m/s, y: -0.1 "
+    "m/s}}]\n"
+    "plates: {press: {point: [0.5, 1], normal: [0, -1], velocity: {y: -0.2 m/s}, friction: 0.2}}\n"
     "probes: {tip: {group: x1, quantity: displacement, component: x}}\n",
     /* Bonded discs in a box. */
     "end: 0.1 s\ngravity: [0, -10]\n"
@@ -125,7 +126,7 @@ static const cdem_state *state_of(int index) {
   const cdem_run_options options = options_of(index);
   fuzz_require(cdem_run_setup_init(&options, NULL, &setup, &fault) == CDEM_OK, "case %d: %s", index,
                fault.message);
-  fuzz_require(setup.engine->advance(&setup, STEPS, &fault) == CDEM_OK, "case %d: %s", index,
+  fuzz_require(setup.engine->advance(&setup, BEFORE, &fault) == CDEM_OK, "case %d: %s", index,
                fault.message);
   fuzz_require(save(&setup, &made[index], &fault) == CDEM_OK, "case %d: %s", index, fault.message);
   cdem_run_setup_release(&setup);
