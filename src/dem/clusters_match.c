@@ -110,7 +110,8 @@ static cdem_status pair_up(match *m, cdem_fault *fault) {
   for (int64_t i = 0; i < m->count; i++)
     for (int64_t j = i + 1; j < m->count && may_pair(m, &m->sides[i], &m->sides[j]); j++)
       CDEM_TRY(consider(m, i, j, fault));
-  qsort(m->list, (size_t)m->candidates, sizeof *m->list, nearest_first);
+  if (m->candidates > 1)
+    qsort(m->list, (size_t)m->candidates, sizeof *m->list, nearest_first);
   for (int64_t k = 0; k < m->candidates; k++) {
     side *a = &m->sides[m->list[k].one], *b = &m->sides[m->list[k].two];
     if (a->other >= 0 || b->other >= 0)
@@ -167,7 +168,8 @@ static cdem_status collect(const match *m, cdem_cluster_contacts *contacts, cdem
     contacts->single += b == NULL && !boundary;
     contacts->contact[contacts->contacts++] = contact_of(m, a, b);
   }
-  qsort(contacts->contact, (size_t)contacts->contacts, sizeof *contacts->contact, by_ids);
+  if (contacts->contacts > 1)
+    qsort(contacts->contact, (size_t)contacts->contacts, sizeof *contacts->contact, by_ids);
   return CDEM_OK;
 }
 

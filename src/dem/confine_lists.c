@@ -103,7 +103,8 @@ static cdem_status node_row(const cdem_dem_store *s, struct cdem_confine *b, con
           b->grain[count++] = grain;
         }
       }
-  sort_row(b->grain + first, count - first);
+  if (count > first)
+    sort_row(b->grain + first, count - first);
   b->row[node + 1] = count;
   return CDEM_OK;
 }

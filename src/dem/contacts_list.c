@@ -153,7 +153,8 @@ cdem_status cdem_dem_contacts(const cdem_dem *dem, int64_t *contacts, cdem_dem_c
     free(l.contact);
     return l.status;
   }
-  qsort(l.contact, (size_t)l.count, sizeof *l.contact, by_ids);
+  if (l.count > 1)
+    qsort(l.contact, (size_t)l.count, sizeof *l.contact, by_ids);
   *contacts = l.count;
   *contact = l.contact;
   return CDEM_OK;

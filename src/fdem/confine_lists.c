@@ -58,7 +58,8 @@ static cdem_status find_row(const cdem_fdem_store *s, struct cdem_fdem_confine *
     CDEM_TRY(cdem_grow(&b->touch, &b->capacity[0], *count + 1, sizeof *b->touch, fault));
     b->touch[(*count)++] = (cdem_fdem_membrane_touch){.grain = sorted[k].grain, .node = node};
   }
-  qsort(b->touch + from, (size_t)(*count - from), sizeof *b->touch, by_grain);
+  if (*count - from > 1)
+    qsort(b->touch + from, (size_t)(*count - from), sizeof *b->touch, by_grain);
   return CDEM_OK;
 }
 

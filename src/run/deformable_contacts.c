@@ -74,7 +74,8 @@ cdem_status cdem_run_deformable_contacts(const cdem_run_deformable *d, int64_t *
   int64_t touches = 0;
   *contacts = 0;
   CDEM_TRY(cdem_fdem_touches(&d->fdem, &touches, &touch, fault));
-  qsort(touch, (size_t)touches, sizeof *touch, by_pair);
+  if (touches > 1)
+    qsort(touch, (size_t)touches, sizeof *touch, by_pair);
   double *center = cdem_allocate(3 * d->fdem.grains, sizeof *center, fault);
   *contact = center != NULL ? cdem_allocate(touches, sizeof **contact, fault) : NULL;
   cdem_status status = *contact != NULL ? CDEM_OK : CDEM_MEMORY;

@@ -440,6 +440,9 @@ static void restart_goes_on_to_the_same_bits(void **state) {
   check_ok(cdem_solver_save(&small.solver, &other, &fault));
   check_fails(cdem_solver_restore(&whole.solver, &other, &fault), CDEM_INPUT,
               "does not belong to this case: 'solver/u' has 18 entries, the case 3280");
+  ((double *)cdem_state_find(&other, "solver/reals")->data)[1] = -1.0;
+  check_fails(cdem_solver_restore(&small.solver, &other, &fault), CDEM_INPUT,
+              "steps of -1 s, which cannot be");
   cdem_state_release(&other);
   rig_release(&small);
   for (int k = 0; k < 2; k++) {

@@ -151,6 +151,13 @@ static void test_flight(void **state) {
     cdem_dem_momentum(&dem, before[0], before[1]);
     cdem_dem_momentum(&again, after[0], after[1]);
     assert_memory_equal(before, after, sizeof before);
+    /* A bond of a grain that is not there, a step that is none. */
+    *(int32_t *)cdem_state_find(&saved, "dem/bonds")->data = (int32_t)m.grains.grains;
+    check_fails(cdem_dem_restore(&again, &saved, &fault), CDEM_INPUT,
+                "bond 0 of the checkpoint cannot be: it joins grains");
+    ((double *)cdem_state_find(&saved, "dem/reals")->data)[1] = 0.0;
+    check_fails(cdem_dem_restore(&again, &saved, &fault), CDEM_INPUT,
+                "steps of 0 s, which cannot be");
     cdem_dem_release(&dem);
     cdem_dem_release(&again);
     cdem_state_release(&saved);

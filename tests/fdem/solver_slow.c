@@ -289,6 +289,9 @@ static void test_same_bits(void **state) {
   centres_of(&fdem[0], one);
   centres_of(&fdem[1], two);
   assert_memory_equal(one, two, sizeof one);
+  ((double *)cdem_state_find(&saved, "fdem/numbers")->data)[1] = 0.0;
+  check_fails(cdem_fdem_restore(&fdem[1], &saved, &fault), CDEM_INPUT,
+              "steps of 0 s, which cannot be");
   cdem_state_release(&saved);
   for (int k = 0; k < 3; k++) {
     cdem_fdem_release(&fdem[k]);

@@ -14,11 +14,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CHANGE = 12, MOST_CHANGES = 8, STEPS = 3 };
+enum { CHANGE = 12, MOST_CHANGES = 8, BEFORE = 30, STEPS = 3 };
 
 #define DISCS                                                                                      \
   "  materials: {sand: {density: 2000 kg/m3}}\n"                                                   \
-  "  packing: {kind: square, low: [0, 0], high: [60 mm, 40 mm], radius: 10 mm}\n"                  \
+  "  packing: {kind: cubic, low: [0, 0], high: [60 mm, 40 mm], radius: 10 mm}\n"                   \
   "contacts: [{normal_stiffness: 1e6 N/m, shear_ratio: 0.5, friction: 0.4, restitution: 0.5}]\n"
 
 static const char *const texts[] = {
@@ -27,10 +27,11 @@ static const char *const texts[] = {
     "mesh: {shape: quad4, count: [2, 2], size: [1 m, 1 m]}\n"
     "materials: {rock: {young: 10 GPa, poisson: 0.2, density: 2700 kg/m3}}\n"
     "blocks: {breakable: body}\n"
-    "interfaces: [{stiffness_factor: 4, tension: 1 kPa, cohesion: 1 kPa, friction: 0.3}]\n"
+    "interfaces: [{stiffness_factor: 4, tension: 1 Pa, cohesion: 1 Pa, friction: 0.1}]\n"
     "contact: {friction: 0.5, damping: 0.1}\n"
-    "supports: [{group: y0, displacement: {x: 0, y: 0}}]\n"
-    "plates: {press: {point: [0.5, 1], normal: [0, -1], velocity: {y: -1 m/s}, friction: 0.2}}\n"
+    "supports: [{group: y0, displacement: {x: 0, y: 0}}, {group: y1, velocity: {x: 1 m/s, y: -0.1 "
+    "m/s}}]\n"
+    "plates: {press: {point: [0.5, 1], normal: [0, -1], velocity: {y: -0.2 m/s}, friction: 0.2}}\n"
     "probes: {tip: {group: x1, quantity: displacement, component: x}}\n",
     /* Bonded discs in a box. */
     "end: 0.1 s\ngravity: [0, -10]\n"
@@ -39,14 +40,14 @@ static const char *const texts[] = {
     "  floor: {shape: plane, center: [0, 0], normal: [0, 1]}\n"
     "  lid: {shape: plate, center: [30 mm, 40 mm], normal: [0, -1], half_size: [30 mm], velocity: "
     "{y: -0.1 m/s}}\n"
-    "bonds: [{gap: 1 um, normal_stiffness: 1e6 N/m, shear_stiffness: 5e5 N/m, tension: 10 N, "
+    "bonds: [{gap: 0.01, normal_stiffness: 1e6 N/m, shear_stiffness: 5e5 N/m, tension: 10 N, "
     "cohesion: 10 N}]\n"
     "probes: {falling: {quantity: velocity, component: y}}\n",
     /* Discs in a periodic cell that is pressed together. */
     "end: 0.1 s\n"
     "grains:\n"
     "  dimension: 2\n" DISCS
-    "cell: {periodic: [x, y], low: [0, 0], high: [60 mm, 40 mm], stress: [-1 kPa, -1 kPa]}\n",
+    "cell: {rate: {yy: -1 1/s}, stress: {xx: 1 kPa}, servo_rate: 10 1/s}\n",
     /* Balls in a membrane. */
     "safety: 0.5\n"
     "grains:\n"
@@ -63,27 +64,28 @@ static const char *const texts[] = {
     "grains:\n"
     "  dimension: 3\n"
     "  law: penalty\n"
-    "  deformable: {shape: tetrasphere, refinement: 1}\n"
-    "  packing: {kind: loose, low: [0, 0, 0], high: [0.1, 0.1, 0.1], radius: 20 mm, count: 4}\n"
+    "  deformable: {shape: cubesphere, refinement: 1}\n"
+    "  packing: {kind: loose, low: [0, 0, 0], high: [0.1, 0.1, 0.1], radius: 20 mm, count: 2}\n"
     "  materials: {rock: {density: 2650 kg/m3, young: 40 GPa, poisson: 0.2}}\n"
     "contacts: [{penalty_stiffness: 1e11 N/m3, friction: 0.3, damping_ratio: 0.2}]\n"
     "walls: {lid: {shape: plane, normal: [0, 0, -1], center: [0, 0, 0.1], velocity: {z: -50 "
     "m/s}}}\n",
     /* Discs in a medium. */
     "end: 6 ms\nstep: 50 us\n"
-    "mesh: {shape: quad4, count: [4, 3], size: [4 m, 3 m], origin: [-2 m, -3 m]}\n"
+    "mesh: {shape: quad4, count: [3, 2], size: [3 m, 2 m], origin: [-1.5 m, -2 m]}\n"
     "materials: {soil: {model: cosserat-lattice, normal_stiffness: 2.5e8 N/m, shear_stiffness: 5e7 "
-    "N/m, rolling_stiffness: 3000 N m, radius: 0.25 m, density: 2042 kg/m3}}\n"
+    "N/m, rolling_stiffness: 3000 N m, radius: 0.15 m, density: 2042 kg/m3}}\n"
     "supports: [{group: y0, displacement: {x: 0, y: 0, rotation: 0}}]\n"
     "grains:\n"
     "  dimension: 2\n"
-    "  packing: {kind: square, low: [-2, -3], high: [2, 0], radius: 0.25 m, centres_inside: yes}\n"
+    "  packing: {kind: square, low: [-1.5, -2], high: [1.5, 0], radius: 0.15 m, centres_inside: "
+    "yes}\n"
     "  materials: {disc: {density: 2600 kg/m3}}\n"
     "contacts: [{normal_stiffness: 2.5e8 N/m, shear_stiffness: 5e7 N/m, friction: 0.5, "
     "normal_dashpot: 0}]\n"
     "walls: {press: {shape: plate, center: [0, 0], normal: [0, -1], half_size: [0.5 m], velocity: "
     "{y: -1 m/s}}}\n"
-    "coupling: {regions: [{low: [-1, -2], high: [1, 0.1]}], rotation: scaled, cycles: 5}\n",
+    "coupling: {regions: [{low: [-0.5, -1], high: [0.5, 0.1]}], rotation: scaled, cycles: 5}\n",
 };
 enum { CASES = sizeof texts / sizeof texts[0] };
 
@@ -124,7 +126,7 @@ static const cdem_state *state_of(int index) {
   const cdem_run_options options = options_of(index);
   fuzz_require(cdem_run_setup_init(&options, NULL, &setup, &fault) == CDEM_OK, "case %d: %s", index,
                fault.message);
-  fuzz_require(setup.engine->advance(&setup, STEPS, &fault) == CDEM_OK, "case %d: %s", index,
+  fuzz_require(setup.engine->advance(&setup, BEFORE, &fault) == CDEM_OK, "case %d: %s", index,
                fault.message);
   fuzz_require(save(&setup, &made[index], &fault) == CDEM_OK, "case %d: %s", index, fault.message);
   cdem_run_setup_release(&setup);
@@ -240,11 +242,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   cdem_status status = cdem_run_setup_init(&options, &state, &setup, &fault);
   if (status == CDEM_OK)
     status = setup.engine->restore(&setup, &state, &fault);
-  if (fuzz_is_read(status, &fault)) {
+  if (status == CDEM_OK)
     status = go_on(&setup, &fault);
-    fuzz_require(status != CDEM_NUMERIC || fault.message[0] != '\0', "a failure without a message");
-    fuzz_is_read(status == CDEM_NUMERIC ? CDEM_OK : status, &fault);
-  }
+  /* Motion may have run away already where the state was left. */
+  if (status == CDEM_NUMERIC)
+    status = fault.status = CDEM_INPUT;
+  fuzz_is_read(status, &fault);
   cdem_run_setup_release(&setup);
   cdem_state_release(&state);
   return 0;

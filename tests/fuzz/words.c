@@ -49,6 +49,7 @@ static int scan(const char *path) {
 
 int main(int count, char **argument) {
   int failed = 0;
+  printf("# words of libFuzzer\n"); /* an empty file is no dictionary */
   for (int i = 1; i < count; i++)
     if (strcmp(argument[i], "--schema") == 0)
       cdem_case_walk(visit, NULL);

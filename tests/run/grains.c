@@ -1,5 +1,6 @@
 /* Grains through the door of a run: tables, bonds, cells, probes, failures. */
 #include "run/grains_box.h"
+#include "run/resume.h"
 
 /* Two bonded spheres turn about each other as one body: their distance stays, and the probe gives
  * the momentum of all. */
@@ -222,8 +223,45 @@ static void nothing_to_balance(void **state) {
   assert_true(is_there("falling/history.csv") && !is_there("falling/summary.json"));
 }
 
+/* Puts a number into an array of 32- or 64-bit integers of a checkpoint; what was there. */
+static int64_t put_whole(const char *path, const char *array, int64_t value) {
+  cdem_fault fault = {0};
+  cdem_state state;
+  check_ok(cdem_read_state(path, &state, &fault));
+  const cdem_array *found = cdem_state_find(&state, array);
+  assert_non_null(found);
+  bool wide = found->type == CDEM_ARRAY_INT64;
+  int64_t before = wide ? *(int64_t *)found->data : *(int32_t *)found->data;
+  if (wide)
+    *(int64_t *)found->data = value;
+  else
+    *(int32_t *)found->data = (int32_t)value;
+  check_ok(cdem_write_state(path, &state, &fault));
+  cdem_state_release(&state);
+  return before;
+}
+
+/* With a checksum that is right. */
+static void a_checkpoint_of_something_else_is_refused(void **state) {
+  (void)state;
+  cdem_fault fault = {0};
+  const char *path = in_scratch("changed/checkpoint.h5");
+  char kept[512];
+  snprintf(kept, sizeof kept, "%s", path);
+  write_case("box.yaml", BOX);
+  check_fails(run_until("changed", false, 1, 1, &fault), CDEM_INTERRUPTED, "interrupted");
+  int64_t before = put_whole(kept, "grains/material", 7);
+  check_fails(run_until("changed", true, 1, 1, &fault), CDEM_INPUT,
+              "the checkpoint does not belong to this case: grain 0 has material 7");
+  put_whole(kept, "grains/material", before);
+  put_whole(kept, "run/counts", -1);
+  check_fails(run_until("changed", true, 1, 1, &fault), CDEM_INPUT,
+              "the array 'run/counts' of the checkpoint holds -1 at place 0");
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_checkpoint_of_something_else_is_refused),
       cmocka_unit_test(a_table_with_bonds_turns),
       cmocka_unit_test(probes_of_contacts),
       cmocka_unit_test(a_cell_is_pressed),
