@@ -151,7 +151,8 @@ static outcome team(cdem_dem *dem, bool moved, int64_t *left) {
 static cdem_status report_bad(const cdem_dem *dem, cdem_fault *fault) {
   const cdem_dem_store *s = dem->store;
   int32_t at = 0;
-  CDEM_REQUIRE(s->core->confine == NULL || !isnan(s->core->confine->host.moved), fault, CDEM_NUMERIC,
+  CDEM_REQUIRE(s->core->confine == NULL || !isnan(s->core->confine->host.moved), fault,
+               CDEM_NUMERIC,
                "the membrane is no longer finite at t = %.6g s; the pressure may be too large, or "
                "the step too long",
                dem->time);
