@@ -103,7 +103,8 @@ static void put_head(const cdem_matrix_writer *matrix, const cdem_line_pairs *pa
           "#> dimension    %d\n"
           "#> boundary     m m %s\n"
           "#> atom_style   bond\n"
-          "#> bond_style   harmonic\n",
+          "#> bond_style   harmonic\n"
+          "#> special_bonds lj/coul 0 1 1\n",
           matrix->sparse.dofs, matrix->sparse.dofs == 2 ? "p" : "m");
   cdem_stream_real(stream, "#> comm_modify  cutoff ", 2.0 * pairs->longest, "\n");
   if (list->balanced)

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 static cdem_status write_all(const cdem_export_options *options, const cdem_scene *scene,
                              cdem_export_summary *summary, cdem_fault *fault) {
@@ -96,9 +97,12 @@ static cdem_status of_case(const cdem_export_options *options, bool folder,
   cdem_state checkpoint = {0};
   char path[4096];
   cdem_status status = CDEM_OK;
-  if (folder)
-    status =
-        cdem_read_state(cdem_run_path(path, options->path, "checkpoint.h5"), &checkpoint, fault);
+  if (folder) {
+    cdem_run_path(path, options->path, "checkpoint.h5");
+    CDEM_REQUIRE(access(path, F_OK) == 0, fault, CDEM_INPUT,
+                 "there is no run in '%s': it has no checkpoint.h5", options->path);
+    status = cdem_read_state(path, &checkpoint, fault);
+  }
   if (status == CDEM_OK)
     status = cdem_run_setup_init(&run, folder ? &checkpoint : NULL, &setup, fault);
   if (status == CDEM_OK && setup.engine != &cdem_run_engine_grains)

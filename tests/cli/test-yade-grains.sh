@@ -45,8 +45,9 @@ for dim in '23':
     with open('theirs' + dim, 'w') as file:
         for n, b in enumerate(body):
             s, g = O.bodies[b].state, grains[n]
-            file.write('%d %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n' % (
-                (n + 1,) + tuple(s.refPos) + (O.bodies[b].shape.radius, s.mass) + tuple(O.forces.f(b))))
+            file.write('%d %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n' % (
+                (n + 1,) + tuple(s.refPos) + (O.bodies[b].shape.radius, s.mass) + tuple(O.forces.f(b)) +
+                (s.inertia[2],)))
     O.reset()
     exec(open('moving%s.py' % dim).read())
     O.run(300, True)
@@ -63,8 +64,14 @@ for dim in 2 3; do
        {for (c = 1; c <= dim; c++) if ($(c + 1) != row[FNR, c]) bad++
         if ($5 != row[FNR, dim + 1]) bad++; seen++}
        END {printf "%d-D: %d grains, %d numbers differ\n", dim, seen, bad; exit !(seen == n && n > 100 && bad == 0)}' rest$dim.csv theirs$dim
-  awk 'FNR == NR {m[$1] = $5; next} {d = $6 / m[$1] - 1; d = d < 0 ? -d : d; if (d > worst) worst = d; seen++}
-       END {printf "masses differ by %.1e\n", worst; exit !(seen > 100 && worst < 1e-15)}' law$dim theirs$dim
+  awk -v share=$([ $dim = 2 ] && echo 0.5 || echo 0.4) '
+       FNR == NR {m[$1] = $5; next}
+       {for (c = 0; c < 2; c++) {
+          d = (c ? $10 / (share * m[$1] * $5 ^ 2) : $6 / m[$1]) - 1
+          if (d < 0) d = -d
+          if (d > worst) worst = d}
+        seen++}
+       END {printf "masses and moments of inertia differ by %.1e\n", worst; exit !(seen > 100 && worst < 1e-15)}' law$dim theirs$dim
   awk '{print $1, $2, $3, $4}' law$dim >ours
   awk '{print $1, $7, $8, $9}' theirs$dim >forces
   awk -v name="$dim-D, forces at the start" -v bound=1e-10 -f "$here/differ.awk" ours forces
