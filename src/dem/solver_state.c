@@ -148,6 +148,9 @@ static cdem_status order_again(cdem_dem *dem, cdem_fault *fault) {
     CDEM_REQUIRE(id >= 0 && id < s->grains && s->slot[id] < 0, fault, CDEM_INPUT,
                  "the checkpoint does not belong to this case: grain %d is not one of its %d", id,
                  s->grains);
+    CDEM_REQUIRE(s->place[4 * (int64_t)i + 3] == s->core->radius[id], fault, CDEM_INPUT,
+                 "the checkpoint does not belong to this case: grain %d has radius %g m, not %g m",
+                 id, s->place[4 * (int64_t)i + 3], s->core->radius[id]);
     s->slot[id] = i;
     s->material[i] = s->core->material[id];
     s->kind[i] = g->motion != NULL ? g->motion[id] : CDEM_GRAIN_FREE;

@@ -29,9 +29,9 @@ static int replay(const char *path, const struct stat *facts, int kind, struct F
   return !good;
 }
 
-/* What a file announces must not be allocated; the sanitizers take far more addresses than that. */
+/* What a file announces must not be allocated. The sanitizers take far more addresses than that. */
 static void limit_memory(void) {
-#if !defined __SANITIZE_ADDRESS__
+#ifndef CDEM_SANITIZED
   const struct rlimit limit = {(rlim_t)4 << 30, (rlim_t)4 << 30};
   setrlimit(RLIMIT_AS, &limit);
 #endif
