@@ -2,6 +2,7 @@
 
 #include "base/mat3.h"
 #include "base/memory.h"
+#include "base/sort.h"
 #include "bsm/face.h"
 #include "bsm/weights.h"
 
@@ -264,7 +265,7 @@ static cdem_status cover_init(const cdem_mesh *mesh, int32_t fine_cells, const i
   for (int32_t k = 0; k < fine_cells; k++)
     for (int i = 0; i < faces_of(mesh, fine_cell[k]); i++)
       face_of(mesh, fine_cell[k], i, corner, &c->face[c->faces++]);
-  qsort(c->face, (size_t)c->faces, sizeof *c->face, compare_faces);
+  cdem_sort(c->face, c->faces, sizeof *c->face, compare_faces);
   /* Both lists: counted two places on, summed, then filled one place on. */
   for (int64_t i = 0; i < p->grains; i++)
     if (p->part[i] == CDEM_PART_INTERFACE)

@@ -1,4 +1,5 @@
 /* Bonds: where they are, which hold, and how they go with the grains when these are sorted. */
+#include "base/sort.h"
 #include "dem/solver_store.h"
 
 #include <math.h>
@@ -54,7 +55,7 @@ void cdem_bonds_update(cdem_dem *dem) {
     pair[0] = bond->id[0] < bond->id[1] ? bond->id[0] : bond->id[1];
     pair[1] = bond->id[0] < bond->id[1] ? bond->id[1] : bond->id[0];
   }
-  qsort(core->held_by, (size_t)core->held, 2 * sizeof *core->held_by, by_ids);
+  cdem_sort(core->held_by, core->held, 2 * sizeof *core->held_by, by_ids);
   core->broken = core->bonds - core->held;
 }
 

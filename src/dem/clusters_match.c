@@ -1,5 +1,6 @@
 /* Clusters to contacts: the two sides of each. */
 #include "base/mat3.h"
+#include "base/sort.h"
 #include "dem/clusters.h"
 
 #include <math.h>
@@ -110,8 +111,7 @@ static cdem_status pair_up(match *m, cdem_fault *fault) {
   for (int64_t i = 0; i < m->count; i++)
     for (int64_t j = i + 1; j < m->count && may_pair(m, &m->sides[i], &m->sides[j]); j++)
       CDEM_TRY(consider(m, i, j, fault));
-  if (m->candidates > 1)
-    qsort(m->list, (size_t)m->candidates, sizeof *m->list, nearest_first);
+  cdem_sort(m->list, m->candidates, sizeof *m->list, nearest_first);
   for (int64_t k = 0; k < m->candidates; k++) {
     side *a = &m->sides[m->list[k].one], *b = &m->sides[m->list[k].two];
     if (a->other >= 0 || b->other >= 0)
@@ -168,8 +168,7 @@ static cdem_status collect(const match *m, cdem_cluster_contacts *contacts, cdem
     contacts->single += b == NULL && !boundary;
     contacts->contact[contacts->contacts++] = contact_of(m, a, b);
   }
-  if (contacts->contacts > 1)
-    qsort(contacts->contact, (size_t)contacts->contacts, sizeof *contacts->contact, by_ids);
+  cdem_sort(contacts->contact, contacts->contacts, sizeof *contacts->contact, by_ids);
   return CDEM_OK;
 }
 
@@ -184,7 +183,7 @@ cdem_status cdem_clusters_match(const cdem_contact_points *points, const int32_t
                pairing->apart, pairing->alike);
   CDEM_NEW(m.sides, clusters, fault);
   add_up(&m, cluster);
-  qsort(m.sides, (size_t)clusters, sizeof *m.sides, points->partner != NULL ? by_pair : by_place);
+  cdem_sort(m.sides, clusters, sizeof *m.sides, points->partner != NULL ? by_pair : by_place);
   cdem_status status = pair_up(&m, fault);
   if (status == CDEM_OK)
     status = collect(&m, &made, fault);

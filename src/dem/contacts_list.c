@@ -1,4 +1,5 @@
 /* Contacts as a list for reports: by ids, ordered by a, then b. */
+#include "base/sort.h"
 #include "dem/solver_store.h"
 
 #include <math.h>
@@ -153,8 +154,7 @@ cdem_status cdem_dem_contacts(const cdem_dem *dem, int64_t *contacts, cdem_dem_c
     free(l.contact);
     return l.status;
   }
-  if (l.count > 1)
-    qsort(l.contact, (size_t)l.count, sizeof *l.contact, by_ids);
+  cdem_sort(l.contact, l.count, sizeof *l.contact, by_ids);
   *contacts = l.count;
   *contact = l.contact;
   return CDEM_OK;

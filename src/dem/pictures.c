@@ -1,6 +1,7 @@
 /* Pictures of grains: discs, chains, arrows, walls, as parts of a map. */
 #include "dem/pictures.h"
 
+#include "base/sort.h"
 #include "dem/pictures_kernels.h"
 
 #include <stdlib.h>
@@ -174,7 +175,7 @@ static cdem_status set_range(const double *value, int64_t count, bool diverging,
   for (int64_t i = 0; i < count; i++)
     if (isfinite(value[i]))
       sorted[n++] = diverging ? fabs(value[i]) : value[i];
-  qsort(sorted, (size_t)n, sizeof *sorted, ascending);
+  cdem_sort(sorted, n, sizeof *sorted, ascending);
   int64_t cut = (int64_t)(BEYOND * (double)n);
   if (n > 0) {
     map->value_max = sorted[n - 1 - cut];
@@ -244,7 +245,7 @@ static cdem_status sort_chains(const cdem_snapshot *s, const cdem_picture_eye *e
     *strokes += is_across(s, c) ? 2 : 1;
   }
   *mean = pushing > 0 ? *mean / (double)pushing : 1.0;
-  qsort(list, (size_t)*count, sizeof *list, by_push);
+  cdem_sort(list, *count, sizeof *list, by_push);
   return CDEM_OK;
 }
 

@@ -5,6 +5,7 @@
  * would fill too many. A facet stands in all cells its box meets; a search reports it in one only,
  * the first that both boxes share. */
 #include "base/memory.h"
+#include "base/sort.h"
 #include "dem/wall_mesh.h"
 
 #include <stdlib.h>
@@ -268,7 +269,7 @@ static cdem_status collect_one(const cdem_wall_facets *mesh, const double x[3], 
         }
       }
   if (list->count - before > 1)
-    qsort(list->item + before, (size_t)(list->count - before), sizeof *list->item, ascending);
+    cdem_sort(list->item + before, list->count - before, sizeof *list->item, ascending);
   return CDEM_OK;
 }
 

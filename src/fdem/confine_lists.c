@@ -4,6 +4,7 @@
  * grain deformed by as much as its surface has room for (`margin`); twice the skin, since rows of a
  * restored specimen are made when a part of that way is done. Grains are looked for in a window of
  * heights. */
+#include "base/sort.h"
 #include "fdem/confine.h"
 
 #include <stdlib.h>
@@ -58,8 +59,7 @@ static cdem_status find_row(const cdem_fdem_store *s, struct cdem_fdem_confine *
     CDEM_TRY(cdem_grow(&b->touch, &b->capacity[0], *count + 1, sizeof *b->touch, fault));
     b->touch[(*count)++] = (cdem_fdem_membrane_touch){.grain = sorted[k].grain, .node = node};
   }
-  if (*count - from > 1)
-    qsort(b->touch + from, (size_t)(*count - from), sizeof *b->touch, by_grain);
+  cdem_sort(b->touch + from, *count - from, sizeof *b->touch, by_grain);
   return CDEM_OK;
 }
 
@@ -134,7 +134,7 @@ static cdem_status build(cdem_fdem *fdem, level *sorted, cdem_fault *fault) {
     sorted[g] = (level){s->center[3 * g + 2], (int32_t)g};
     window = fmax(window, reach_of(s, g) + 2.0 * b->skin);
   }
-  qsort(sorted, (size_t)s->grains, sizeof *sorted, by_height);
+  cdem_sort(sorted, s->grains, sizeof *sorted, by_height);
   for (int32_t i = 0; i < b->host.membrane.nodes; i++) {
     b->row[i] = count;
     CDEM_TRY(find_row(s, b, sorted, window, i, &count, fault));

@@ -1,4 +1,5 @@
 /* Changing the text of a case in place: the numbers and keys that change, and nothing else. */
+#include "base/sort.h"
 #include "cases/places.h"
 #include "io/case_file.h"
 #include "io/text.h"
@@ -113,7 +114,7 @@ static cdem_status apply(const editing *e, const char *heading, char **text) {
   char *made = cdem_allocate((int64_t)room, 1, e->fault), *at = made;
   if (made == NULL)
     return CDEM_MEMORY;
-  qsort(e->list, (size_t)e->edits, sizeof *e->list, by_place);
+  cdem_sort(e->list, e->edits, sizeof *e->list, by_place);
   at = stpcpy(at, heading);
   int64_t done = 0;
   for (int64_t i = 0; i < e->edits; i++) {

@@ -58,16 +58,18 @@ static cdem_status supports(cdem_run_body *setup, cdem_fault *fault) {
 
 /* ---- plates ---- */
 
-/* Unit normal; an in-plane axis where none was given: z in 2-D, else across the smallest component
- * of the normal. */
+/* Unit normal; an in-plane axis where none was given: in the plane in 2-D, else across the smallest
+ * component of the normal. The case was checked: neither is zero, nor are they parallel. */
 static cdem_status plate_axes(const cdem_run_body *setup, const cdem_case_plate *wanted,
                               cdem_plate *plate, cdem_fault *fault) {
   char key[96];
+  if (setup->model.dimension == 2 && (wanted->normal[2] != 0.0 || wanted->axis[2] != 0.0))
+    return cdem_case_fail(&setup->run->cases,
+                          cdem_run_named_key(key, "plates", wanted->name,
+                                             wanted->normal[2] != 0.0 ? "normal" : "axis"),
+                          CDEM_INPUT, fault,
+                          "the body is plane, and so are its plates; leave the z component out");
   double size = cdem_norm3(wanted->normal), along = cdem_norm3(wanted->axis);
-  if (!(size > 0.0))
-    return cdem_case_fail(
-        &setup->run->cases, cdem_run_named_key(key, "plates", wanted->name, "normal"), CDEM_INPUT,
-        fault, "the normal has no length; it points out of the plate towards the body");
   int least = 0;
   double axis[3] = {0};
   for (int k = 0; k < 3; k++) {
@@ -85,10 +87,6 @@ static cdem_status plate_axes(const cdem_run_body *setup, const cdem_case_plate 
   for (int k = 0; k < 3; k++)
     axis[k] -= out * plate->normal[k];
   double length = cdem_norm3(axis);
-  if (length < 1e-6)
-    return cdem_case_fail(&setup->run->cases,
-                          cdem_run_named_key(key, "plates", wanted->name, "axis"), CDEM_INPUT,
-                          fault, "the axis is parallel to the normal; it lies in the plate");
   for (int k = 0; k < 3; k++)
     plate->axis[k] = axis[k] / length;
   return CDEM_OK;

@@ -37,10 +37,6 @@ static cdem_status make_grid(cdem_run_body *setup, cdem_fault *fault) {
   for (int k = 0; k < 3; k++) {
     grid.count[k] = (int32_t)wanted->count[k];
     grid.size[k] = wanted->size[k];
-    if (wanted->count[k] != floor(wanted->count[k]) || wanted->count[k] > 1e6)
-      return cdem_case_fail(&setup->run->cases, "mesh.count", CDEM_INPUT, fault,
-                            "%g is no count of bricks: whole numbers up to a million are wanted",
-                            wanted->count[k]);
   }
   cdem_status status = cdem_mesh_grid(&grid, &setup->mesh, fault);
   if (status == CDEM_USAGE) {

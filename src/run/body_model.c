@@ -64,22 +64,12 @@ static cdem_status cut(cdem_run_body *setup, cdem_fault *fault) {
 }
 
 /* Index of the material for cells of no named group; -1 when every material has groups. */
-static cdem_status find_default(const cdem_run_body *setup, int *index, cdem_fault *fault) {
+static int find_default(const cdem_run_body *setup) {
   const cdem_case_values *values = cdem_run_values(setup->run);
-  char key[96];
-  *index = -1;
-  for (int m = 0; m < (int)values->materials.count; m++) {
-    const cdem_case_material *material = &values->materials.item[m];
-    if (material->groups.count > 0)
-      continue;
-    if (*index >= 0)
-      return cdem_case_fail(
-          &setup->run->cases, cdem_run_named_key(key, "materials", material->name, ""), CDEM_INPUT,
-          fault, "materials '%s' and '%s' both have no groups; one material at most may be without",
-          values->materials.item[*index].name, material->name);
-    *index = m;
-  }
-  return CDEM_OK;
+  for (int m = 0; m < (int)values->materials.count; m++)
+    if (values->materials.item[m].groups.count == 0)
+      return m;
+  return -1;
 }
 
 /* No cell may be left without a material; the message names the groups it is in. */
@@ -254,12 +244,10 @@ static int worthwhile_threads(const cdem_run_body *setup) {
 
 cdem_status cdem_run_body_model(cdem_run_body *setup, cdem_fault *fault) {
   assignment a = {0};
-  int default_material;
   CDEM_TRY(cut(setup, fault));
-  CDEM_TRY(find_default(setup, &default_material, fault));
   cdem_status status = assign(setup, &a, fault);
   if (status == CDEM_OK)
-    status = make_model(setup, &a, default_material, fault);
+    status = make_model(setup, &a, find_default(setup), fault);
   assignment_release(&a);
   CDEM_TRY(status);
   CDEM_TRY(material_numbers(setup, fault));

@@ -17,14 +17,7 @@ static cdem_status check_component(const cdem_run_body *setup, const cdem_case_p
                                    cdem_fault *fault) {
   char key[96];
   int dof;
-  bool stress = probe->quantity == STRESS,
-       tensor = probe->component >= XX && probe->component < SIZE;
-  if (stress != tensor && probe->component != SIZE)
-    return cdem_case_fail(
-        &setup->run->cases, cdem_run_named_key(key, "probes", probe->name, "component"), CDEM_INPUT,
-        fault, "a component of %s is one of %s", stress ? "stress" : "a vector",
-        stress ? "xx, yy, zz, yz, xz, xy, magnitude" : "x, y, z, rotation, magnitude");
-  if (!tensor && probe->component != SIZE)
+  if (probe->quantity != STRESS && probe->component != SIZE)
     return cdem_run_dof(setup, cdem_run_named_key(key, "probes", probe->name, "component"),
                         probe->component, &dof, fault);
   return CDEM_OK;

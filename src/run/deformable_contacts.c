@@ -1,4 +1,5 @@
 /* Nodes that touch become contacts: one for each two grains, and for each grain and wall. */
+#include "base/sort.h"
 #include "run/deformable.h"
 
 #include <stdlib.h>
@@ -74,8 +75,7 @@ cdem_status cdem_run_deformable_contacts(const cdem_run_deformable *d, int64_t *
   int64_t touches = 0;
   *contacts = 0;
   CDEM_TRY(cdem_fdem_touches(&d->fdem, &touches, &touch, fault));
-  if (touches > 1)
-    qsort(touch, (size_t)touches, sizeof *touch, by_pair);
+  cdem_sort(touch, touches, sizeof *touch, by_pair);
   double *center = cdem_allocate(3 * d->fdem.grains, sizeof *center, fault);
   *contact = center != NULL ? cdem_allocate(touches, sizeof **contact, fault) : NULL;
   cdem_status status = *contact != NULL ? CDEM_OK : CDEM_MEMORY;

@@ -1,6 +1,7 @@
 /* Bonds of a case: all pairs closer than the gap at the start, found by a sweep along x over the
  * grains and their images. */
 #include "base/memory.h"
+#include "base/sort.h"
 #include "run/grains.h"
 
 #include <math.h>
@@ -118,7 +119,7 @@ static void sort_bonds(cdem_run_grains *g) {
   int64_t kept = 0;
   if (g->bonds == 0)
     return;
-  qsort(g->bond, (size_t)g->bonds, sizeof *g->bond, by_grains);
+  cdem_sort(g->bond, g->bonds, sizeof *g->bond, by_grains);
   for (int64_t i = 0; i < g->bonds; i++)
     if (kept == 0 || by_grains(&g->bond[kept - 1], &g->bond[i]) != 0)
       g->bond[kept++] = g->bond[i];
@@ -151,7 +152,7 @@ cdem_status cdem_run_grains_bonds(cdem_run_grains *g, cdem_fault *fault) {
   }
   cdem_status status = list_passers(g, gap, &list, count, fault);
   if (status == CDEM_OK) {
-    qsort(list, (size_t)count[0], sizeof *list, by_low);
+    cdem_sort(list, count[0], sizeof *list, by_low);
     status = sweep(g, list, count[0], fault);
   }
   free(list);
