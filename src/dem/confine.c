@@ -113,12 +113,16 @@ static void calm(cdem_dem *dem) {
   b->membrane.drag = dem->store->options.mass_damping;
 }
 
-void cdem_confine_calm(cdem_dem *dem) {
+cdem_status cdem_confine_calm(cdem_dem *dem, cdem_fault *fault) {
   struct cdem_confine *b = dem->store->core->confine;
   b->quiet_damping = b->options.quiet_damping;
-  if (b->options.quiet > 0.0 && b->quiet_damping == 0.0)
-    b->quiet_damping = 2.0 / cdem_dem_limit(dem, NULL);
+  if (b->options.quiet > 0.0 && b->quiet_damping == 0.0) {
+    double limit;
+    CDEM_TRY(cdem_dem_limit(dem, &limit, NULL, fault));
+    b->quiet_damping = 2.0 / limit;
+  }
   calm(dem);
+  return CDEM_OK;
 }
 
 static double height_of(const cdem_dem *dem) {

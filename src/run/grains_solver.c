@@ -88,7 +88,8 @@ cdem_status cdem_run_grains_solver(cdem_run_grains *g, cdem_fault *fault) {
                           local.message);
   if (status != CDEM_OK)
     return cdem_fail(fault, status, "%s", local.message);
-  double limit = cdem_dem_limit(&g->dem, g->run->limiter);
+  double limit;
+  CDEM_TRY(cdem_dem_limit(&g->dem, &limit, g->run->limiter, fault));
   CDEM_TRY(cdem_run_check_step(g->run, limit, fault));
   if (v->analysis == CDEM_ANALYSIS_DYNAMIC)
     return divide_end(g, fault);
@@ -99,7 +100,8 @@ cdem_status cdem_run_grains_look(cdem_run_setup *run, cdem_fault *fault) {
   cdem_run_grains *g = run->context;
   const cdem_case_values *v = cdem_run_values(run);
   char limiter[64];
-  double limit = cdem_dem_limit(&g->dem, limiter), step = g->dem.step;
+  double limit, step = g->dem.step;
+  CDEM_TRY(cdem_dem_limit(&g->dem, &limit, limiter, fault));
   if (!isnan(v->step)) {
     if (step <= limit)
       return CDEM_OK;
