@@ -58,5 +58,7 @@ long command_integer(const char *option, const char *text, long least, long most
 
 /* Flushes stdout; an error there (full disk, closed pipe) turns success into exit code 6. */
 int command_finish(int exit_code);
+/* For atexit: the same where argp ends the program, after --help. */
+void command_finish_others(void);
 
 #endif
