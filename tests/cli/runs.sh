@@ -21,9 +21,10 @@ wait_for_rows() {
   done
 }
 
-# A summary but for the wall time and, which a continued run does not know, the path of the case.
+# A summary but for the wall time and for names of files: a continued run does not know the path of the case, and its own
+# case names files from the root on.
 summary_of() {
-  sed -E '/^ *"(wall_time|wall_fine|wall_coarse|wall_transfer|grain_steps_per_second|case|threads)":/d' "$1/summary.json"
+  sed -E '/^ *"(wall_time|wall_fine|wall_coarse|wall_transfer|grain_steps_per_second|case|file|threads)":/d' "$1/summary.json"
 }
 
 # Everything but what holds the wall time.
