@@ -42,8 +42,9 @@ while read -r command; do
   number=$((number + 1))
   for locale in C de_DE.UTF-8; do
     mkdir -p "$locale/$number"
-    (cd "$locale/$number" && set -- . "$2" && LC_ALL=$locale && export LC_ALL &&
-      eval "\"$cdem\" $command" >printed 2>said; echo $? >code)
+    (cd "$locale/$number" && set -- . "$2" && LC_ALL=$locale && export LC_ALL && code=0
+      eval "\"$cdem\" $command" >printed 2>said || code=$?
+      echo $code >code)
     # What is the time of day or of the run.
     sed -E -i '/wall|_per_second|"seconds"|[0-9] s( |$)/d' "$locale/$number"/printed "$locale/$number"/said
     find "$locale/$number" -name checkpoint.h5 -delete -o -name .lock -delete
