@@ -239,11 +239,22 @@ void command_guard(const char *path) {
     sigaction(crash[i], &action, NULL);
 }
 
+static bool finished;
+
+static bool printed(void) {
+  if (fflush(stdout) == 0 && ferror(stdout) == 0)
+    return true;
+  fprintf(stderr, "error: cannot write to standard output: %s\n", strerror(errno));
+  return false;
+}
+
 int command_finish(int exit_code) {
   command_progress_end();
-  if ((fflush(stdout) != 0 || ferror(stdout)) && exit_code == 0) {
-    fprintf(stderr, "error: cannot write to standard output: %s\n", strerror(errno));
-    return cdem_status_exit_code(CDEM_FILE);
-  }
-  return exit_code;
+  finished = true;
+  return exit_code != 0 || printed() ? exit_code : cdem_status_exit_code(CDEM_FILE);
+}
+
+void command_finish_others(void) {
+  if (!finished && !printed())
+    _exit(cdem_status_exit_code(CDEM_FILE));
 }

@@ -66,5 +66,7 @@ void command_override(command_overrides *overrides, const char *text);
 
 /* Flushes stdout; an error there (full disk, closed pipe) turns success into exit code 6. */
 int command_finish(int exit_code);
+/* For atexit: the same where argp ends the program, after --help. */
+void command_finish_others(void);
 
 #endif

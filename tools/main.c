@@ -5,6 +5,7 @@
 
 #include <gsl/gsl_errno.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 
 const command commands[] = {
@@ -38,6 +39,7 @@ int main(int argc, char **argv) {
   gsl_set_error_handler_off(); /* GSL's default handler aborts */
   signal(SIGPIPE, SIG_IGN);    /* a closed pipe is an error message, not a silent death */
   signal(SIGXFSZ, SIG_IGN);    /* likewise a file-size limit */
+  atexit(command_finish_others);
   if (argc < 2)
     wanted();
   if (strcmp(argv[1], "--version") == 0 || strcmp(argv[1], "-V") == 0) {

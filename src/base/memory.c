@@ -8,8 +8,8 @@
 
 static atomic_llong allocations_left = -1;
 
-void cdem_memory_fail_after(int64_t count) {
-  atomic_store(&allocations_left, count);
+int64_t cdem_memory_fail_after(int64_t count) {
+  return atomic_exchange(&allocations_left, count);
 }
 
 /* True when a test asked this allocation to fail. */

@@ -23,8 +23,9 @@ cdem_status cdem_grow(void *array, int64_t *capacity, int64_t needed, size_t siz
 /* A copy of a text; NULL on failure. */
 char *cdem_copy_text(const char *text, cdem_fault *fault);
 
-/* For tests: the allocation after `count` more successful ones fails; negative switches it off. */
-void cdem_memory_fail_after(int64_t count);
+/* For tests: the allocation after `count` more successful ones fails; negative switches it off.
+ * What was left of the count before: negative when it was off, or the allocation has failed. */
+int64_t cdem_memory_fail_after(int64_t count);
 
 /* Declares nothing; assigns a new zeroed array or returns CDEM_MEMORY. */
 #define CDEM_NEW(pointer, count, fault)                                                            \

@@ -118,8 +118,9 @@ static cdem_status gather(const cdem_absorb_options *o, cdem_absorb *absorb, gat
 
 /* By the bound that dashpots obey (dem/solver_limit.c): k dt^2 + 2 c dt <= 4 for all motions. */
 static cdem_status check_rate(const cdem_absorb_options *o, cdem_fault *fault) {
-  char limiter[64];
-  double part = o->fine->step / cdem_dem_limit(o->fine, limiter);
+  double limit;
+  CDEM_TRY(cdem_dem_limit(o->fine, &limit, NULL, fault));
+  double part = o->fine->step / limit;
   double most = 2.0 * (1.0 - part * part) / o->fine->step;
   CDEM_REQUIRE(o->rate > 0.0 && o->rate <= most, fault, CDEM_INPUT,
                "the layer takes %.4g of the motion a second; with steps of %.4g s it is stable up "

@@ -72,11 +72,15 @@ void cdem_confine_release(cdem_dem_core *core) {
 
 /* ---- motion ---- */
 
-void cdem_confine_calm(cdem_dem *dem) {
+cdem_status cdem_confine_calm(cdem_dem *dem, cdem_fault *fault) {
   cdem_confine_host *host = &dem->store->core->confine->host;
-  if (host->options.quiet > 0.0)
-    cdem_confine_host_quiet(host, cdem_dem_limit(dem, NULL));
+  if (host->options.quiet > 0.0) {
+    double limit;
+    CDEM_TRY(cdem_dem_limit(dem, &limit, NULL, fault));
+    cdem_confine_host_quiet(host, limit);
+  }
   dem->store->options.mass_damping = cdem_confine_host_damping(host, dem->time);
+  return CDEM_OK;
 }
 
 static double height_of(const cdem_dem *dem) {

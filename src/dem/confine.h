@@ -32,7 +32,7 @@ void cdem_confine_release(cdem_dem_core *core);
 /* After a build: candidates within the skin. CDEM_NUMERIC: a grain is outside. */
 cdem_status cdem_confine_build(cdem_dem *dem, cdem_fault *fault);
 /* Damping at the start. */
-void cdem_confine_calm(cdem_dem *dem);
+cdem_status cdem_confine_calm(cdem_dem *dem, cdem_fault *fault);
 /* The wanted force of the plate, before walls move; after: the membrane moves to t_n+1. */
 void cdem_confine_aim(cdem_dem *dem);
 void cdem_confine_move(cdem_dem *dem);

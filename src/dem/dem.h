@@ -108,8 +108,8 @@ void cdem_dem_release(cdem_dem *dem);
 cdem_status cdem_dem_step(cdem_dem *dem, cdem_fault *fault);
 cdem_status cdem_dem_steps(cdem_dem *dem, int64_t steps, cdem_fault *fault);
 
-/* Largest stable step now, s, and what limits it ("grain 17 with 4 contacts"). */
-double cdem_dem_limit(const cdem_dem *dem, char limiter[64]);
+/* Largest stable step now, s, and what limits it ("grain 17 with 4 contacts"; may be NULL). */
+cdem_status cdem_dem_limit(const cdem_dem *dem, double *limit, char limiter[64], cdem_fault *fault);
 cdem_status cdem_dem_set_step(cdem_dem *dem, double step, cdem_fault *fault);
 
 void cdem_dem_energies_now(cdem_dem *dem, cdem_dem_energies *energies);

@@ -326,8 +326,8 @@ static bool is_there(const press *p) {
 }
 
 static cdem_status keep_step(press *p, cdem_fault *fault) {
-  char limiter[64];
-  double limit = cdem_dem_limit(&p->dem, limiter);
+  double limit;
+  CDEM_TRY(cdem_dem_limit(&p->dem, &limit, NULL, fault));
   return p->dem.step > 0.8 * limit ? cdem_dem_set_step(&p->dem, 0.6 * limit, fault) : CDEM_OK;
 }
 

@@ -243,7 +243,7 @@ static cdem_status init(const cdem_dem_options *options, cdem_dem *dem, cdem_fau
   cdem_dem_evaluate(dem, 0.0);
   CDEM_TRY(cdem_dem_first_step(dem, fault));
   if (s->core->confine != NULL)
-    cdem_confine_calm(dem);
+    CDEM_TRY(cdem_confine_calm(dem, fault));
   cdem_dem_bulk(dem);
   cdem_dem_keep_seen(dem);
   for (int32_t i = 0; i < s->grains; i++) {

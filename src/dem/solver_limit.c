@@ -352,6 +352,8 @@ void cdem_dem_bulk(cdem_dem *dem) {
 }
 
 static void name_limiter(int32_t grain, int32_t contacts, char limiter[64]) {
+  if (limiter == NULL)
+    return;
   limiter[0] = 0;
   if (grain == CDEM_LIMIT_MEMBRANE)
     snprintf(limiter, 64, "the nodes of the membrane");
@@ -359,20 +361,12 @@ static void name_limiter(int32_t grain, int32_t contacts, char limiter[64]) {
     snprintf(limiter, 64, "grain %d with %d contact%s", grain, contacts, contacts == 1 ? "" : "s");
 }
 
-static cdem_status limit_now(const cdem_dem *dem, double *limit, char limiter[64],
-                             cdem_fault *fault) {
+cdem_status cdem_dem_limit(const cdem_dem *dem, double *limit, char limiter[64],
+                           cdem_fault *fault) {
   int32_t grain, contacts = 0;
   CDEM_TRY(find(dem, true, limit, &grain, &contacts, fault));
   name_limiter(grain, contacts, limiter);
   return CDEM_OK;
-}
-
-double cdem_dem_limit(const cdem_dem *dem, char limiter[64]) {
-  char text[64];
-  double limit;
-  if (limit_now(dem, &limit, limiter != NULL ? limiter : text, NULL) != CDEM_OK)
-    return INFINITY;
-  return limit;
 }
 
 static cdem_status refuse(double step, double limit, const char *limiter, cdem_fault *fault) {
@@ -386,7 +380,7 @@ cdem_status cdem_dem_first_step(cdem_dem *dem, cdem_fault *fault) {
   const cdem_dem_options *o = &dem->store->options;
   char limiter[64];
   double limit;
-  CDEM_TRY(limit_now(dem, &limit, limiter, fault));
+  CDEM_TRY(cdem_dem_limit(dem, &limit, limiter, fault));
   if (o->step > limit)
     return refuse(o->step, limit, limiter, fault);
   CDEM_REQUIRE(o->step > 0.0 || isfinite(limit), fault, CDEM_INPUT,
@@ -439,7 +433,7 @@ void cdem_dem_change_step(cdem_dem *dem, double step) {
 cdem_status cdem_dem_set_step(cdem_dem *dem, double step, cdem_fault *fault) {
   char limiter[64];
   double limit;
-  CDEM_TRY(limit_now(dem, &limit, limiter, fault));
+  CDEM_TRY(cdem_dem_limit(dem, &limit, limiter, fault));
   CDEM_REQUIRE(step > 0.0 && isfinite(step), fault, CDEM_INPUT,
                "the time step is %g s; it is positive", step);
   if (step > limit)

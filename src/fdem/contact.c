@@ -134,7 +134,7 @@ static cdem_status find(cdem_fdem_contacts *contacts, const cdem_contact_view *v
   for (int64_t g = 0; g < contacts->grains; g++) {
     const cdem_touch_row *row = contacts->row + g;
     CDEM_REQUIRE(row->status == CDEM_OK, fault, row->status,
-                 "no memory for the touches of grain %" PRId64, g);
+                 "out of memory: no room for the touches of grain %" PRId64, g);
     if (row->sunk < 0)
       continue;
     const cdem_node_touch *t = row->item + row->sunk;

@@ -224,6 +224,8 @@ static bool read_without_map(cdem_case_reader *r, const cdem_yaml_node *at,
 static void read_section(cdem_case_reader *r, const cdem_yaml_node *at, const cdem_yaml_node *mark,
                          const cdem_case_section *section, void *values) {
   char *name = NULL;
+  if (r->status != CDEM_OK)
+    return;
   if (section->named)
     memcpy(&name, values, sizeof name);
   r->status = cdem_case_defaults(section, values, r->fault);

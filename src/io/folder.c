@@ -174,6 +174,7 @@ static cdem_status lock_file(const char *folder, const char *path, int descripto
                "cannot lock '%s': %s; choose a folder on a file system with locks with -o", path,
                strerror(errno));
   int length = snprintf(holder, sizeof holder, "%ld\n", (long)getpid());
+  errno = ENOSPC; /* what a number that was cut short comes from */
   if (ftruncate(descriptor, 0) != 0 || pwrite(descriptor, holder, (size_t)length, 0) != length)
     return cdem_write_fail(path, errno, fault);
   return CDEM_OK;

@@ -14,7 +14,6 @@
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,6 +21,8 @@ extern char **environ;
 
 enum { KINDS = 2, COMPLAINT = 256 };
 static const char *const endings[KINDS] = {"png", "svg"};
+/* What stands at the end of a whole picture, but for line breaks. */
+static const char *const tails[KINDS] = {"IEND\xae\x42\x60\x82", "</svg>"};
 
 /* FOLDER/NAME.ENDING, to be freed; NULL when out of memory. prefix and suffix may be "". */
 static char *join(const char *folder, const char *prefix, const char *name, const char *ending,
@@ -44,10 +45,12 @@ static cdem_status put_file(const char *folder, const char *name, const char *en
   cdem_status status = cdem_output_open(path, &output, fault);
   free(path);
   CDEM_TRY(status);
+  cdem_c_locale locale = cdem_c_locale_enter();
   if (strcmp(ending, "dat") == 0)
     drawing->put_data(cdem_output_stream(output), drawing->picture);
   else
     drawing->put_script(cdem_output_stream(output), name, drawing->picture);
+  cdem_c_locale_leave(locale);
   return cdem_output_commit(&output, fault);
 }
 
@@ -149,10 +152,23 @@ static cdem_status draw(const char *folder, const char *name, char *const drawn[
   return status;
 }
 
-/* Renames a drawn file into place; an empty or missing one is a failure of gnuplot's. */
-static cdem_status publish(const char *drawn, const char *target, cdem_fault *fault) {
-  struct stat made;
-  if (stat(drawn, &made) != 0 || made.st_size == 0)
+/* gnuplot takes no notice when a disk is full, and ends well. */
+static bool is_whole(const char *path, const char *tail) {
+  char end[12];
+  FILE *file = fopen(path, "rbe");
+  if (file == NULL)
+    return false;
+  bool whole = fseek(file, -(long)sizeof end, SEEK_END) == 0 &&
+               fread(end, 1, sizeof end, file) == sizeof end &&
+               memmem(end, sizeof end, tail, strlen(tail)) != NULL;
+  fclose(file);
+  return whole;
+}
+
+/* Renames a drawn file into place. */
+static cdem_status publish(const char *drawn, const char *target, const char *tail,
+                           cdem_fault *fault) {
+  if (!is_whole(drawn, tail))
     return cdem_write_fail(target, ENOSPC, fault);
   if (rename(drawn, target) != 0)
     return cdem_write_fail(target, errno, fault);
@@ -173,7 +189,7 @@ static cdem_status draw_and_publish(const char *folder, const char *name, const 
   if (status == CDEM_OK)
     status = draw(folder, name, drawn, fault);
   for (int k = 0; k < KINDS && status == CDEM_OK; k++)
-    status = publish(path[k], target[k], fault);
+    status = publish(path[k], target[k], tails[k], fault);
   for (int k = 0; k < KINDS; k++) {
     if (path[k] != NULL)
       unlink(path[k]);

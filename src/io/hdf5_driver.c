@@ -21,8 +21,11 @@ static H5FD_t *driver_open(const char *name, unsigned flags, hid_t access, haddr
   (void)name, (void)flags, (void)maximum;
   const driver_info *info = H5Pget_driver_info(access);
   driver_file *file = info != NULL ? cdem_allocate(1, sizeof *file, NULL) : NULL;
-  if (file == NULL)
+  if (file == NULL) {
+    if (info != NULL)
+      info->target->error = ENOMEM;
     return NULL;
+  }
   file->target = info->target;
   return &file->base;
 }

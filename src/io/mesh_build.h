@@ -115,6 +115,7 @@ typedef struct {
   const char *section; /* for messages: what is being read */
   locale_t locale;     /* "C": numbers have a decimal point whatever the process's locale is */
   bool binary;         /* msh: data of the sections is binary */
+  bool regular;        /* the file can be read a second time */
   bool swapped;        /* and of the other byte order */
 } cdem_text;
 

@@ -1,10 +1,10 @@
 #include "io/mesh_parameters.h"
 
 #include "base/suggest.h"
+#include "io/text.h"
 
 #include <ctype.h>
 #include <errno.h>
-#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -155,8 +155,10 @@ cdem_status cdem_mesh_parameters_check(const cdem_mesh_parameters *parameters,
 /* ---- the small file ---- */
 
 static cdem_status fail_write(const char *wrapper, cdem_fault *fault) {
-  return cdem_fail(fault, CDEM_FILE, "cannot write '%s', which gives gmsh the parameters: %s",
-                   wrapper, strerror(errno));
+  return cdem_fail(
+      fault, CDEM_FILE,
+      "cannot write '%s', which gives gmsh the parameters: %s; free some space in /tmp", wrapper,
+      strerror(errno));
 }
 
 cdem_status cdem_mesh_parameters_wrap(const cdem_mesh_parameters *parameters, const char *path,
@@ -172,14 +174,18 @@ cdem_status cdem_mesh_parameters_wrap(const cdem_mesh_parameters *parameters, co
   FILE *file = descriptor >= 0 ? fdopen(descriptor, "w") : NULL;
   if (file == NULL) {
     free(whole);
-    return fail_write(wrapper, fault);
+    cdem_status status = fail_write(wrapper, fault);
+    if (descriptor >= 0) {
+      close(descriptor);
+      unlink(wrapper);
+    }
+    return status;
   }
-  locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(c);
+  cdem_c_locale locale = cdem_c_locale_enter();
   for (int p = 0; p < parameters->count; p++)
     fprintf(file, "%s = %.17g;\n", parameters->name[p], parameters->value[p]);
   fprintf(file, "Merge \"%s\";\n", whole);
-  uselocale(before);
-  freelocale(c);
+  cdem_c_locale_leave(locale);
   free(whole);
   bool wrong = ferror(file) != 0;
   if (fclose(file) == 0 && !wrong)

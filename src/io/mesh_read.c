@@ -107,7 +107,10 @@ static cdem_status read_text(const char *path, mesh_format format,
   cdem_status status;
   bool by_gmsh =
       format == GEO || format == STEP || format == STL || (format == MSH && is_msh40(&text));
-  if (format == MSH && by_gmsh)
+  if (by_gmsh && !text.regular)
+    status = cdem_fail(fault, CDEM_INPUT,
+                       "it is a pipe or a device, which gmsh cannot read; give a file");
+  else if (format == MSH && by_gmsh)
     status = check_msh40(&text, fault);
   else if (format == MSH)
     status = cdem_read_msh(&text, builder, fault);

@@ -15,8 +15,9 @@ static cdem_status load(FILE *file, cdem_text *text, cdem_fault *fault) {
   CDEM_REQUIRE(fstat(fileno(file), &facts) == 0, fault, CDEM_FILE, "%s", strerror(errno));
   CDEM_REQUIRE(!S_ISDIR(facts.st_mode), fault, CDEM_FILE, "it is a directory");
   int64_t capacity = 0;
+  text->regular = S_ISREG(facts.st_mode);
   /* One byte more than the file, so that its end is met without growing; pipes have no size. */
-  int64_t room = S_ISREG(facts.st_mode) ? (int64_t)facts.st_size + 2 : 1 << 16;
+  int64_t room = text->regular ? (int64_t)facts.st_size + 2 : 1 << 16;
   do {
     CDEM_TRY(cdem_grow(&text->data, &capacity, room, 1, fault));
     text->size +=

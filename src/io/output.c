@@ -46,6 +46,7 @@ static const char *remedy(int error) {
 }
 
 cdem_status cdem_write_fail(const char *path, int error, cdem_fault *fault) {
+  CDEM_REQUIRE(error != ENOMEM, fault, CDEM_MEMORY, "out of memory: cannot write '%s'", path);
   return cdem_fail(fault, CDEM_FILE, "cannot write '%s': %s; %s", path, strerror(error),
                    remedy(error));
 }

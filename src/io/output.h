@@ -18,7 +18,7 @@ int cdem_output_descriptor(const cdem_output *output);
  * writing; it is gone when closed. */
 cdem_status cdem_output_scratch(const cdem_output *output, FILE **scratch, cdem_fault *fault);
 
-/* Records CDEM_FILE: "cannot write 'NAME': CAUSE; REMEDY" for an errno. */
+/* Records CDEM_FILE: "cannot write 'NAME': CAUSE; REMEDY" for an errno; CDEM_MEMORY for ENOMEM. */
 cdem_status cdem_output_fail(const cdem_output *output, int error, cdem_fault *fault);
 
 /* The same for a path that has no output. */

@@ -4,7 +4,6 @@
 #include "io/units.h"
 
 #include <ctype.h>
-#include <locale.h>
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
@@ -20,34 +19,15 @@ static cdem_status fail_unit(const char *text, const char *unit, cdem_dimension 
                    text, unit, cdem_dimension_unit(dimension, expected));
 }
 
-/* UDUNITS reads numbers by the locale, in units ("1e3 kg") and in its database; the C locale holds
- * for this thread meanwhile. */
-typedef struct {
-  locale_t c, before;
-} c_locale;
-
-static c_locale enter_c_locale(void) {
-  c_locale locale = {newlocale(LC_ALL_MASK, "C", (locale_t)0), (locale_t)0};
-  if (locale.c != (locale_t)0)
-    locale.before = uselocale(locale.c);
-  return locale;
-}
-
-static void leave_c_locale(c_locale locale) {
-  if (locale.c == (locale_t)0)
-    return;
-  uselocale(locale.before);
-  freelocale(locale.c);
-}
-
 /* Scale of `unit` against the SI unit of the dimension. */
 static cdem_status unit_scale(ut_system *system, const char *text, const char *unit,
                               cdem_dimension dimension, double *scale, cdem_fault *fault) {
   char si_text[48];
   cdem_dimension_unit(dimension, si_text);
-  c_locale locale = enter_c_locale();
+  /* UDUNITS reads numbers by the locale, in units ("1e3 kg") and in its database. */
+  cdem_c_locale locale = cdem_c_locale_enter();
   ut_unit *from = ut_parse(system, unit, UT_UTF8), *si = ut_parse(system, si_text, UT_UTF8);
-  leave_c_locale(locale);
+  cdem_c_locale_leave(locale);
   cdem_status status = CDEM_OK;
   double zero = 0.0;
   cv_converter *convert = NULL;
@@ -74,9 +54,9 @@ static cdem_status open_system(cdem_units *units, const char *text, cdem_fault *
   if (units->system != NULL)
     return CDEM_OK;
   ut_set_error_message_handler(ut_ignore);
-  c_locale locale = enter_c_locale();
+  cdem_c_locale locale = cdem_c_locale_enter();
   units->system = ut_read_xml(NULL);
-  leave_c_locale(locale);
+  cdem_c_locale_leave(locale);
   CDEM_REQUIRE(units->system != NULL, fault, CDEM_FILE,
                "cannot read the unit database of UDUNITS for '%s'; install the package "
                "libudunits2-data or give plain numbers in SI units",

@@ -334,6 +334,8 @@ static cdem_status check_bytes(state_reader *reader, int descriptor) {
                "of a run",
                reader->path);
   int error = sum_file(descriptor, bytes, expected);
+  CDEM_REQUIRE(error != ENOMEM, reader->fault, CDEM_MEMORY, "out of memory: cannot read '%s'",
+               reader->path);
   CDEM_REQUIRE(error == 0, reader->fault, CDEM_FILE, "cannot read '%s': %s", reader->path,
                strerror(error));
   CDEM_REQUIRE(memcmp(trailer, expected, TRAILER_LENGTH) == 0, reader->fault, CDEM_INPUT,

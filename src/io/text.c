@@ -174,3 +174,17 @@ bool cdem_ends_with_one_of(const char *path, const char *endings) {
   }
   return false;
 }
+
+cdem_c_locale cdem_c_locale_enter(void) {
+  cdem_c_locale locale = {newlocale(LC_ALL_MASK, "C", (locale_t)0), (locale_t)0};
+  if (locale.c != (locale_t)0)
+    locale.before = uselocale(locale.c);
+  return locale;
+}
+
+void cdem_c_locale_leave(cdem_c_locale locale) {
+  if (locale.c == (locale_t)0)
+    return;
+  uselocale(locale.before);
+  freelocale(locale.c);
+}

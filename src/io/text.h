@@ -7,6 +7,7 @@
 #ifndef CDEM_IO_TEXT_H
 #define CDEM_IO_TEXT_H
 
+#include <locale.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -29,5 +30,13 @@ bool cdem_ends_with_one_of(const char *path, const char *endings);
 
 /* The number at the start of `text` in C notation, *end behind it (= text when there is none). */
 double cdem_get_real(const char *text, char **end);
+
+/* What others print or read in between (printf, gmsh, UDUNITS) is in the C locale, in this thread.
+ * Where there is no memory for a locale, it stays the process's. */
+typedef struct {
+  locale_t c, before;
+} cdem_c_locale;
+cdem_c_locale cdem_c_locale_enter(void);
+void cdem_c_locale_leave(cdem_c_locale locale);
 
 #endif

@@ -81,7 +81,8 @@ cdem_status cdem_run_grains_solver(cdem_run_grains *g, cdem_fault *fault) {
   cdem_status status = cdem_dem_init(&g->options, &g->dem, &local);
   if (status != CDEM_OK)
     return cdem_run_refused(g->run, key_of(g, local.message, key), status, local.message, fault);
-  double limit = cdem_dem_limit(&g->dem, g->run->limiter);
+  double limit;
+  CDEM_TRY(cdem_dem_limit(&g->dem, &limit, g->run->limiter, fault));
   CDEM_TRY(cdem_run_check_step(g->run, limit, fault));
   if (v->analysis == CDEM_ANALYSIS_DYNAMIC)
     return divide_end(g, fault);
@@ -92,7 +93,8 @@ cdem_status cdem_run_grains_look(cdem_run_setup *run, cdem_fault *fault) {
   cdem_run_grains *g = run->context;
   const cdem_case_values *v = cdem_run_values(run);
   char limiter[64];
-  double limit = cdem_dem_limit(&g->dem, limiter), step = g->dem.step;
+  double limit, step = g->dem.step;
+  CDEM_TRY(cdem_dem_limit(&g->dem, &limit, limiter, fault));
   if (!isnan(v->step))
     return cdem_run_check_stable(run, limit, limiter, fault);
   double wanted = v->safety * limit;

@@ -130,6 +130,14 @@ static cdem_status draw_due(cdem_run_output *output, const cdem_run_now *now, cd
   return CDEM_OK;
 }
 
+/* Asked at every so many steps. */
+static bool is_balanced(const cdem_run_output *output, const cdem_run_now *now) {
+  const cdem_case_values *values = cdem_run_values(output->setup);
+  const cdem_run_engine *engine = output->setup->engine;
+  return values->analysis == CDEM_ANALYSIS_RELAXATION && now->steps % engine->look_every == 0 &&
+         engine->unbalanced(output->setup) < values->tolerance;
+}
+
 /* Rows, frames, pictures and checkpoints of this step. */
 static cdem_status write_due(cdem_run_output *output, bool *stop, cdem_fault *fault) {
   const cdem_run_now now = cdem_run_where(output->setup);
@@ -142,9 +150,10 @@ static cdem_status write_due(cdem_run_output *output, bool *stop, cdem_fault *fa
   if (frame_is_due(output, &now))
     CDEM_TRY(cdem_run_output_frame(output, fault));
   CDEM_TRY(draw_due(output, &now, fault));
-  if (checkpoint_is_due(output, &now))
-    CDEM_TRY(cdem_run_output_checkpoint(output, fault));
-  return CDEM_OK;
+  if (!checkpoint_is_due(output, &now))
+    return CDEM_OK;
+  output->over = *stop || is_balanced(output, &now);
+  return cdem_run_output_checkpoint(output, fault);
 }
 
 /* A run that cannot go on keeps what it had: the state of the failure as row and frame, and the
@@ -205,8 +214,7 @@ static cdem_status run_relaxation(cdem_run_output *output, cdem_fault *fault) {
       return keep(output, status);
     CDEM_TRY(write_due(output, &stop, fault));
     now = cdem_run_where(setup);
-    if (now.steps % setup->engine->look_every == 0 &&
-        setup->engine->unbalanced(setup) < values->tolerance)
+    if (is_balanced(output, &now))
       return CDEM_OK;
   }
   if (stop)
@@ -222,16 +230,23 @@ static cdem_status run_relaxation(cdem_run_output *output, cdem_fault *fault) {
                                                             : "a body that no support holds");
 }
 
-cdem_status cdem_run_loop(cdem_run_output *output, cdem_fault *fault) {
+/* A run that was broken behind its last step has none to go. */
+static cdem_status step_to_end(cdem_run_output *output, cdem_fault *fault) {
+  if (output->over)
+    return CDEM_OK;
   switch (cdem_run_values(output->setup)->analysis) {
   case CDEM_ANALYSIS_STATIC: /* solved while it was set up */
-    break;
+    return CDEM_OK;
   case CDEM_ANALYSIS_RELAXATION:
-    CDEM_TRY(run_relaxation(output, fault));
-    break;
+    return run_relaxation(output, fault);
   default:
-    CDEM_TRY(run_dynamic(output, fault));
+    return run_dynamic(output, fault);
   }
+}
+
+cdem_status cdem_run_loop(cdem_run_output *output, cdem_fault *fault) {
+  CDEM_TRY(step_to_end(output, fault));
+  output->over = true;
   output->ended = cdem_run_clock();
   CDEM_TRY(cdem_run_output_row(output, NULL, fault));
   CDEM_TRY(cdem_run_output_frame(output, fault));

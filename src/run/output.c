@@ -47,11 +47,13 @@ static cdem_status fill_state(const cdem_run_output *output, cdem_state *state, 
   int64_t counts[COUNTS];
   const int64_t sums[SUMS] = {(int64_t)setup->case_sum, (int64_t)setup->input_sum,
                               (int64_t)setup->kept_sum};
+  const int64_t over = output->over;
   const double reals[2] = {output->counters.peak, cdem_run_output_wall(output)};
   counters_out(&output->counters, counts);
   CDEM_TRY(cdem_state_add_copy(state, "run/counts", CDEM_ARRAY_INT64, COUNTS, counts, fault));
   CDEM_TRY(cdem_state_add_copy(state, "run/sums", CDEM_ARRAY_INT64, SUMS, sums, fault));
   CDEM_TRY(cdem_state_add_copy(state, "run/reals", CDEM_ARRAY_REAL, 2, reals, fault));
+  CDEM_TRY(cdem_state_add_copy(state, "run/over", CDEM_ARRAY_INT64, 1, &over, fault));
   return setup->engine->save(setup, state, fault);
 }
 
@@ -68,11 +70,14 @@ cdem_status cdem_run_output_checkpoint(cdem_run_output *output, cdem_fault *faul
 }
 
 static cdem_status restore(cdem_run_output *output, const cdem_state *state, cdem_fault *fault) {
-  int64_t counts[COUNTS], sums[SUMS];
+  int64_t counts[COUNTS], sums[SUMS], over = 0;
   double reals[2];
   CDEM_TRY(cdem_state_get(state, "run/counts", CDEM_ARRAY_INT64, COUNTS, counts, fault));
   CDEM_TRY(cdem_state_get(state, "run/sums", CDEM_ARRAY_INT64, SUMS, sums, fault));
   CDEM_TRY(cdem_state_get(state, "run/reals", CDEM_ARRAY_REAL, 2, reals, fault));
+  if (cdem_state_find(state, "run/over") != NULL) /* not in older checkpoints */
+    CDEM_TRY(cdem_state_get(state, "run/over", CDEM_ARRAY_INT64, 1, &over, fault));
+  output->over = over != 0;
   CDEM_REQUIRE((uint64_t)sums[2] == output->setup->kept_sum, fault, CDEM_INPUT,
                "%s/case.yaml is not the case of the checkpoint beside it: it was changed since; "
                "start a new run",

@@ -24,6 +24,7 @@ typedef struct {
   int64_t stride;        /* steps at once that the clock allows at present */
   double started, saved; /* s, monotonic clock */
   double ended;          /* likewise, once the loop is over; 0 before */
+  bool over;             /* nothing is left to step: a checkpoint says so */
 } cdem_run_output;
 
 /* Opens the files of options->folder. checkpoint NULL: a new run, of which row 0, frame 0 and a

@@ -76,7 +76,9 @@ static cdem_status clear_folder(const cdem_run_options *options, cdem_fault *fau
 
 static cdem_status has_checkpoint(const cdem_run_options *options, cdem_fault *fault) {
   CDEM_REQUIRE(is_there(options->folder, "checkpoint.h5"), fault, CDEM_INPUT,
-               "there is no run to continue in '%s': it has no checkpoint.h5", options->folder);
+               "there is no run to continue in '%s': it has no checkpoint.h5; start one that was "
+               "broken before its first checkpoint anew, `cdem run CASE -o %s`",
+               options->folder, options->folder);
   return CDEM_OK;
 }
 

@@ -239,7 +239,21 @@ static cdem_status check_text(const scaling_job *job, cdem_fault *fault) {
   return status;
 }
 
-/* The table of grains first: a case without its grains is of no use. */
+/* The case is written, but for its name, before its table of grains takes the place of an older
+ * one: what fails on the way leaves both as they were. */
+static cdem_status write_case_and_grains(const scaling_job *job, cdem_fault *fault) {
+  cdem_output *file = NULL;
+  CDEM_TRY(cdem_output_open(job->options->output, &file, fault));
+  cdem_status status = cdem_output_write(file, job->text, strlen(job->text), fault);
+  bool written = status == CDEM_OK && fflush(cdem_output_stream(file)) == 0;
+  if (written && job->grains_name != NULL)
+    status = scale_grains(job, fault);
+  if (status == CDEM_OK)
+    status = cdem_output_commit(&file, fault); /* tells what flushing met */
+  cdem_output_discard(&file);
+  return status;
+}
+
 static cdem_status write_all(scaling_job *job, cdem_fault *fault) {
   char heading[600];
   CDEM_TRY(name_grains(job, fault));
@@ -249,9 +263,7 @@ static cdem_status write_all(scaling_job *job, cdem_fault *fault) {
   write_heading(job, heading);
   CDEM_TRY(cdem_case_rewrite(&job->cases, heading, job->changes, job->change, &job->text, fault));
   CDEM_TRY(check_text(job, fault));
-  if (job->grains_name != NULL)
-    CDEM_TRY(scale_grains(job, fault));
-  return cdem_write_text(job->options->output, job->text, (int64_t)strlen(job->text), fault);
+  return write_case_and_grains(job, fault);
 }
 
 /* ---- what was done, key by key ---- */

@@ -155,8 +155,9 @@ typedef struct {
 } patch;
 
 static void patch_release(patch *p) {
+  int supports = p->world.motion.supports; /* the world forgets it */
   cdem_world_release(&p->world);
-  for (int i = 0; p->support != NULL && i < p->world.motion.supports; i++)
+  for (int i = 0; p->support != NULL && i < supports; i++)
     cdem_series_release(&p->support[i].series);
   cdem_series_release(&p->load.series);
   free(p->support);

@@ -202,7 +202,9 @@ static inline void pair_steps(const pair_options *o, pair *p) {
   solver.gravity[1] = o->gravity;
   check_ok(cdem_solver_init(&solver, &p->solver, &fault));
   double own = cdem_solver_limit(&p->solver, limiter);
-  double limit = cdem_dem_limit(&p->dem, limiter), step = 0.2 * limit;
+  double limit;
+  check_ok(cdem_dem_limit(&p->dem, &limit, limiter, &fault));
+  double step = 0.2 * limit;
   check_ok(cdem_coupling_limit(&p->body, own, &p->tie, &p->dem, &p->options.most_step, &fault));
   if (o->part > 0.0)
     step = o->part * p->options.most_step / o->cycles;

@@ -3,11 +3,10 @@
 # off its foot and falls, so that interfaces, contact and their histories are on the way.
 # usage: test-run-interrupt.sh BUILD_FOLDER SOURCE_FOLDER
 set -eu
-cdem=$1/cdem
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
-export OMP_WAIT_POLICY=passive
+. "$2/tests/cli/runs.sh"
 cat >case.yaml <<'EOC'
 title: A beam that breaks under its weight and a push
 end: 20 ms
@@ -27,23 +26,6 @@ EOC
 "$cdem" run -q --no-figures case.yaml -o whole
 cracks=$(sed -n 's/^    "cracks": \([0-9][0-9]*\).*/\1/p' whole/summary.json)
 [ "${cracks:-0}" -gt 0 ] || { echo "the beam does not break: the test shows nothing"; exit 1; }
-
-# wait_for_rows FOLDER ROWS PROCESS: until the history has come that far
-wait_for_rows() {
-  tries=0
-  while [ ! -e "$1/history.csv" ] || [ "$(wc -l <"$1/history.csv")" -lt "$2" ]; do
-    kill -0 "$3" 2>/dev/null || { echo "$1: ended before it could be broken"; exit 1; }
-    tries=$((tries + 1))
-    [ $tries -lt 6000 ] || { echo "$1: no rows appeared"; exit 1; }
-    sleep 0.01
-  done
-}
-
-# Everything but what holds the wall time; tests/run/resume_slow.c compares the arrays of the last checkpoints.
-same() {
-  [ -s "$1/summary.json" ] && [ -s "$1/checkpoint.h5" ] || { echo "$1: not ended"; exit 1; }
-  diff -r -x .lock -x summary.json -x checkpoint.h5 whole "$1" || { echo "$1: files differ"; exit 1; }
-}
 
 # Ctrl-C, twice on the way
 "$cdem" run -q --no-figures case.yaml -o broken 2>err &
@@ -86,6 +68,7 @@ cp case.yaml early/case.yaml
 code=0
 "$cdem" run -q --resume early 2>err || code=$?
 [ $code -eq 3 ] || { echo "no checkpoint: exit code $code"; cat err; exit 1; }
+grep -q "^error: there is no run to continue in 'early': .* -o early\`\$" err || { cat err; exit 1; }
 "$cdem" run -q --no-figures case.yaml -o early
 same early
 echo "the same bits: $cracks cracks"

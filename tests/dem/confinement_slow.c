@@ -221,7 +221,8 @@ static void a_light_membrane_limits_the_step(void **state) {
   make(&s, 1);
   s.membrane.areal_density *= 1e-4;
   check_ok(cdem_dem_init(&s.m.options, &dem, &fault));
-  cdem_dem_limit(&dem, limiter);
+  double limit;
+  check_ok(cdem_dem_limit(&dem, &limit, limiter, &fault));
   assert_string_equal(limiter, "the nodes of the membrane");
   cdem_dem_release(&dem);
   specimen_release(&s);

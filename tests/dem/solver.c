@@ -116,7 +116,8 @@ static void test_limit(void **state) {
   check_ok(cdem_dem_init(&m.options, &dem, &fault));
   double mass[2];
   cdem_dem_look(&dem, &(cdem_dem_view){.mass = mass});
-  double limit = cdem_dem_limit(&dem, limiter);
+  double limit;
+  check_ok(cdem_dem_limit(&dem, &limit, limiter, &fault));
   check_near(limit, 2.0 / sqrt(1e5 * (1.0 / mass[0] + 1.0 / mass[1])), 1e-12, 0.0);
   assert_non_null(strstr(limiter, "with 1 contact"));
   check_near(dem.step, 0.1 * limit, 1e-14, 0.0);

@@ -27,4 +27,7 @@ grep -nE '\b([fvd]*printf|f?put[sc]|putchar|perror|exit|abort|getenv|stdout|stde
   grep -vE '^src/io/|^[^:]*:[0-9]+: \*|s(n)?printf|format\(printf' && exit 1
 grep -nE '\b(fopen|fdopen|freopen|gzopen|open|H5F(create|open))[[:space:]]*\(' -r src --include='*.[ch]' |
   grep -vE '^src/io/|->open|\(\*open\)' && exit 1
+# Only base/memory.c allocates, so that a test can make every allocation fail (tests/robust/memory.c).
+grep -nE '\b(malloc|calloc|realloc|reallocarray|aligned_alloc|posix_memalign|strn?dup|v?asprintf)[[:space:]]*\(' -r src tools \
+  --include='*.[ch]' | grep -vE '^src/base/memory\.c:|^[^:]*:[0-9]+: \*' && exit 1
 echo "rooms hold"
