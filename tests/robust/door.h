@@ -71,12 +71,13 @@ static inline uint64_t fold_folder(uint64_t sum, const char *folder) {
   int entries = scandir(folder, &entry, NULL, alphasort);
   assert_true(entries >= 0);
   for (int i = 0; i < entries; i++) {
-    char path[MOST_PATH + 256];
+    char path[MOST_PATH];
     struct stat facts;
     bool taken = true;
     for (size_t k = 0; k < sizeof other / sizeof *other; k++)
       taken = taken && strcmp(entry[i]->d_name, other[k]) != 0;
-    snprintf(path, sizeof path, "%s/%s", folder, entry[i]->d_name);
+    int length = snprintf(path, sizeof path, "%s/%s", folder, entry[i]->d_name);
+    assert_in_range(length, 1, sizeof path - 1);
     assert_int_equal(stat(path, &facts), 0);
     if (taken) {
       sum = fold_text(sum, entry[i]->d_name);
