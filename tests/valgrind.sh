@@ -69,6 +69,7 @@ watch pack-square "$cdem" pack square --size 0.1,0.1 --radius 0.005 -o square.cs
 watch pack-inward "$cdem" pack inward --size 0.1,0.1 --sizes uniform --least 0.002 --most 0.005 -o inward.csv
 watch pack-loose "$cdem" pack loose --size 0.1,0.1,0.1 --radius 0.01 --count 60 --compact --fraction 0.4 -o loose.vtp
 watch scale "$cdem" scale "$source/tests/small/discs.yaml" --h 2 -o scaled.yaml
+rm -f "$work/discs-run/summary.json" # as if it had been killed at its end
 watch resume "$cdem" run -q --no-figures --resume discs-run
 watch compare "$cdem" compare discs-run discs-run
 watch list "$cdem" list

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-/* `count` rows of `size` bytes in the order of `compare`, as qsort; list: NULL if there are none. */
+/* `count` rows of `size` bytes in the order of `compare`; list: NULL if there are none. */
 static inline void cdem_sort(void *list, int64_t count, size_t size,
                              int (*compare)(const void *, const void *)) {
   if (count > 1)
