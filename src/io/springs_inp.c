@@ -181,10 +181,11 @@ static cdem_status put_inp(cdem_matrix_writer *matrix, cdem_fault *fault) {
 static cdem_status open_inp(const char *path, const cdem_model *model, cdem_springs_writer **writer,
                             cdem_fault *fault) {
   *writer = NULL;
-  CDEM_REQUIRE(!cdem_model_is_cosserat(model), fault, CDEM_INPUT,
-               "cannot write '%s': CalculiX has no spring between a displacement and a rotation of "
-               "different nodes, which a Cosserat network needs; write .csv, .h5 or .mtx instead",
-               path);
+  CDEM_TRY(
+      cdem_matrix_refuse_cosserat(path, model,
+                                  "CalculiX has no spring between a displacement and a rotation of "
+                                  "different nodes, which a Cosserat network needs",
+                                  fault));
   return cdem_matrix_writer_open(path, model, put_inp, writer, fault);
 }
 

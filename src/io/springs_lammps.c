@@ -224,10 +224,10 @@ static cdem_status put_lammps(cdem_matrix_writer *matrix, cdem_fault *fault) {
 static cdem_status open_lammps(const char *path, const cdem_model *model,
                                cdem_springs_writer **writer, cdem_fault *fault) {
   *writer = NULL;
-  CDEM_REQUIRE(!cdem_model_is_cosserat(model), fault, CDEM_INPUT,
-               "cannot write '%s': LAMMPS has no bond between displacements and rotations, which a "
-               "Cosserat network needs; write .csv, .h5 or .mtx instead",
-               path);
+  CDEM_TRY(cdem_matrix_refuse_cosserat(
+      path, model,
+      "LAMMPS has no bond between displacements and rotations, which a Cosserat network needs",
+      fault));
   return cdem_matrix_writer_open(path, model, put_lammps, writer, fault);
 }
 

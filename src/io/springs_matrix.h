@@ -23,6 +23,10 @@ cdem_status cdem_matrix_writer_open(const char *path, const cdem_model *model,
                                     cdem_status (*put)(cdem_matrix_writer *, cdem_fault *),
                                     cdem_springs_writer **writer, cdem_fault *fault);
 
+/* CDEM_INPUT for a Cosserat network, which the program of this format cannot carry, and why. */
+cdem_status cdem_matrix_refuse_cosserat(const char *path, const cdem_model *model, const char *why,
+                                        cdem_fault *fault);
+
 /* Symmetric up to CDEM_MATRIX_ROUNDING. */
 bool cdem_matrix_is_symmetric(const cdem_sparse *sparse);
 

@@ -45,6 +45,14 @@ cdem_status cdem_matrix_writer_open(const char *path, const cdem_model *model,
   return CDEM_OK;
 }
 
+cdem_status cdem_matrix_refuse_cosserat(const char *path, const cdem_model *model, const char *why,
+                                        cdem_fault *fault) {
+  if (!cdem_model_is_cosserat(model))
+    return CDEM_OK;
+  return cdem_fail(fault, CDEM_INPUT, "cannot write '%s': %s; write .csv, .h5 or .mtx instead",
+                   path, why);
+}
+
 bool cdem_matrix_is_symmetric(const cdem_sparse *sparse) {
   int dofs = sparse->dofs;
   double bound = CDEM_MATRIX_ROUNDING * cdem_sparse_largest(sparse);

@@ -118,11 +118,11 @@ static cdem_status put_yade(cdem_matrix_writer *matrix, cdem_fault *fault) {
 static cdem_status open_yade(const char *path, const cdem_model *model,
                              cdem_springs_writer **writer, cdem_fault *fault) {
   *writer = NULL;
-  CDEM_REQUIRE(!cdem_model_is_cosserat(model), fault, CDEM_INPUT,
-               "cannot write '%s': the interactions of YADE couple displacements and rotations by "
-               "the contact point alone, a Cosserat network does not; write .csv, .h5 or .mtx "
-               "instead",
-               path);
+  CDEM_TRY(
+      cdem_matrix_refuse_cosserat(path, model,
+                                  "the interactions of YADE couple displacements and rotations by "
+                                  "the contact point alone, a Cosserat network does not",
+                                  fault));
   return cdem_matrix_writer_open(path, model, put_yade, writer, fault);
 }
 

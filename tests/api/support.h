@@ -18,6 +18,8 @@
 #include <cmocka.h>
 /* clang-format on */
 
+#include "support/folder.h"
+
 #include <libcdem.h>
 
 /* The call succeeds; otherwise its message is shown. `fault` must be in scope. */
@@ -37,30 +39,5 @@
       fail_msg("message '%s' does not hold '%s'", fault.message, (text));                          \
     memset(&fault, 0, sizeof fault);                                                               \
   } while (0)
-
-/* A scratch folder: group setup and teardown. */
-static char scratch[64];
-
-static int scratch_make(void **state) {
-  (void)state;
-  snprintf(scratch, sizeof scratch, "/tmp/cdem-api-XXXXXX");
-  return mkdtemp(scratch) == NULL;
-}
-
-static int scratch_remove(void **state) {
-  (void)state;
-  char command[128];
-  snprintf(command, sizeof command, "rm -rf '%s'", scratch);
-  return system(command);
-}
-
-/* scratch/NAME; eight at a time. */
-static inline const char *in_scratch(const char *name) {
-  static char path[8][512];
-  static int next;
-  next = (next + 1) % 8;
-  snprintf(path[next], sizeof path[next], "%s/%s", scratch, name);
-  return path[next];
-}
 
 #endif

@@ -1,32 +1,8 @@
-/* A scratch folder for the tests of one program: scratch_make and scratch_remove are its group
- * setup and teardown. */
+/* Checks of the rooms together with a scratch folder. */
 #ifndef CDEM_TESTS_SUPPORT_SCRATCH_H
 #define CDEM_TESTS_SUPPORT_SCRATCH_H
 
+#include "support/folder.h"
 #include "support/test.h"
-
-static char scratch[64];
-
-static int scratch_make(void **state) {
-  (void)state;
-  snprintf(scratch, sizeof scratch, "/tmp/cdem-test-XXXXXX");
-  return mkdtemp(scratch) == NULL;
-}
-
-static int scratch_remove(void **state) {
-  (void)state;
-  char command[128];
-  snprintf(command, sizeof command, "rm -rf '%s'", scratch);
-  return system(command);
-}
-
-/* scratch/NAME; eight at a time. */
-static inline const char *in_scratch(const char *name) {
-  static char path[8][512];
-  static int next;
-  next = (next + 1) % 8;
-  snprintf(path[next], sizeof path[next], "%s/%s", scratch, name);
-  return path[next];
-}
 
 #endif
