@@ -8,7 +8,9 @@
  * they stay at the baseline. Under -std=c17 the compilers fuse multiply and add only with
  * -ffp-contract=fast, which the room sets for the file of its kernels. CDEM_NO_MULTIVERSION (the
  * sanitizer builds) keeps the baseline alone: the choice is made before their run time is up. So
- * does clang, whose version 14 gives the function a name of its own that no caller finds.
+ * does clang, whose version 14 gives the function a name of its own that no caller finds. Helpers
+ * are then left as functions: watched, and inlined into each of twenty kernels, they take a
+ * compiler a quarter of an hour, as functions seconds.
  */
 #ifndef CDEM_BASE_SIMD_H
 #define CDEM_BASE_SIMD_H
@@ -21,7 +23,11 @@
 #define CDEM_MULTIVERSION
 #endif
 
+#ifdef CDEM_NO_MULTIVERSION
+#define CDEM_ALWAYS_INLINE static inline
+#else
 #define CDEM_ALWAYS_INLINE static inline __attribute__((always_inline))
+#endif
 
 /* Eight doubles side by side, as the compiler's own vector. Arrays of double are read and written
  * through cdem_vec8_at, which asks for no alignment. Hand both on by pointer: by value the calling
