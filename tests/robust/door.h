@@ -34,8 +34,7 @@ struct door_kind {
   /* Brings what a failed call has left to its end; the sum of the result. NULL: `open` once more
    * from the beginning. */
   uint64_t (*again)(const door *d);
-  bool writes;    /* a file that lasts */
-  bool no_memory; /* asks for no memory at all */
+  bool writes; /* a file that lasts */
 };
 
 /* ---- sums of results ---- */

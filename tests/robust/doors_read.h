@@ -166,7 +166,6 @@ static uint64_t value_result(const door *d) {
   return fold(sum_start, &door_value, sizeof door_value);
 }
 
-static const door_kind quantity = {
-    .before = value_before, .open = read_value, .result = value_result, .no_memory = true};
+static const door_kind quantity = {value_before, read_value, value_result, NULL, NULL, false};
 
 #endif
