@@ -29,11 +29,11 @@ cdem_status cdem_confine_init(cdem_dem *dem, cdem_fault *fault) {
   cdem_dem_core *core = dem->store->core;
   const cdem_dem_store *s = dem->store;
   const cdem_confinement *o = s->options.confinement;
-  cdem_wall_body *wall = s->walls->body;
   double smallest = INFINITY;
   if (o == NULL)
     return CDEM_OK;
   CDEM_TRY(check(dem, o, fault));
+  cdem_wall_body *wall = s->walls->body;
   CDEM_NEW(core->confine, 1, fault);
   struct cdem_confine *b = core->confine;
   for (int32_t i = 0; i < s->grains; i++)

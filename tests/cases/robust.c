@@ -75,7 +75,8 @@ static void with_bytes_changed(void **state) {
       if (gentle && isalnum((unsigned char)text[at]))
         text[at] = "0123456789abcxyz"[which % 16];
       else
-        text[at] = round % 3 == 1 ? (char)cdem_random_uniform(&random, 0, 255.9) : likely[which];
+        text[at] =
+            round % 3 == 1 ? (char)(int)cdem_random_uniform(&random, 0, 255.9) : likely[which];
     }
     good += survives(text, sizeof plain - 1);
   }
