@@ -92,7 +92,7 @@ static void pair_forces(cdem_dem *dem, int32_t chunk, double step, cdem_dem_work
   double last = 0.0;
   bool book = s->options.energies && step > 0.0;
   tick(core, -1, &last);
-  cdem_dem_hits(dem, chunk, work, &hit, model_start);
+  core->part[chunk].touches = cdem_dem_hits(dem, chunk, work, &hit, model_start);
   tick(core, CLOCK_TEST, &last);
   cdem_pair_kernel kernel = {s, core, s->pair_start[cdem_chunk_from(dem, chunk)], step, false};
   for (int32_t m = 0; m < core->models; m++)
@@ -374,6 +374,7 @@ void cdem_dem_force_after(cdem_dem *dem, double step) {
   }
   if (broke > 0)
     cdem_bonds_update(dem);
+  cdem_dem_bulk_if_stale(dem);
 }
 
 void cdem_dem_gather(cdem_dem *dem) {

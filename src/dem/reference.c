@@ -201,8 +201,11 @@ void cdem_dem_reference(cdem_dem *dem, double step) {
   double volume = cdem_cell_volume(s->dim, &s->cell) * (s->dim == 2 ? core->thickness : 1.0);
   memset(core->stress, 0, sizeof core->stress);
   memset(core->image_force, 0, sizeof core->image_force);
-  for (int64_t p = 0; p < s->pairs; p++)
+  part->touches = 0;
+  for (int64_t p = 0; p < s->pairs; p++) {
     pair(dem, p, step, part);
+    part->touches += s->pair_touch[p] == 1;
+  }
   for (int32_t c = 0; core->bonds > 0 && c < core->chunks; c++)
     cdem_bonds_forces(dem, c, step);
   if (s->walls != NULL)

@@ -315,14 +315,24 @@ static cdem_status find(const cdem_dem *dem, bool fresh, double *limit, int32_t 
   return CDEM_OK;
 }
 
-/* Of all contacts as if they stood in every direction: sum of kn L^2/(dim^2 V). */
+static double joints(const cdem_dem_core *core) {
+  double sum = (double)core->held;
+  for (int32_t c = 0; c < core->chunks; c++)
+    sum += core->part[c].touches;
+  return sum;
+}
+
+/* Of all contacts as if they stood in every direction: sum of kn L^2/(dim^2 V). Dashpots answer a
+ * rate along one axis with less than sum of c L^2/(dim V) times it, within the step: a servo that
+ * took less than this over K for its time would throw the cell to and fro. */
 void cdem_dem_bulk(cdem_dem *dem) {
   const cdem_dem_store *s = dem->store;
   cdem_dem_core *core = s->core;
-  core->bulk = core->response = 0.0;
+  core->bulk = core->response = core->viscosity = 0.0;
   if (s->pair_image == NULL)
     return;
-  double mass = 0.0, longest = 0.0;
+  core->joints = joints(core);
+  double mass = 0.0, longest = 0.0, dash = 0.0;
   double volume = cdem_cell_volume(s->dim, &s->cell) * (s->dim == 2 ? core->thickness : 1.0);
   double sum = 0.0;
   for (int64_t p = 0; p < s->pairs; p++) {
@@ -335,6 +345,7 @@ void cdem_dem_bulk(cdem_dem *dem) {
     at_overlap(&core->model[core->model_of[s->material[i] * s->options.materials + s->material[j]]],
                x[3] * y[3] / both, ma * mb / (ma + mb), 1e-3 * both, &k);
     sum += k.kn * both * both;
+    dash += fmax(k.dash[0], k.dash[1]) * both * both;
   }
   for (int64_t b = 0; b < core->bonds; b++)
     if (core->bond[b].holds)
@@ -348,7 +359,20 @@ void cdem_dem_bulk(cdem_dem *dem) {
     longest = fmax(longest, s->cell.h[c] * s->cell.h[c] + s->cell.h[3 + c] * s->cell.h[3 + c] +
                                 s->cell.h[6 + c] * s->cell.h[6 + c]);
   core->bulk = sum / (s->dim * s->dim * volume);
-  core->response = 0.5 * sqrt(longest * (mass / volume) / core->bulk);
+  core->viscosity = dash / (s->dim * volume);
+  core->response =
+      fmax(0.5 * sqrt(longest * (mass / volume) / core->bulk), core->viscosity / core->bulk);
+}
+
+/* A list can last from a loose packing to a dense one: a servo that still took it for loose would
+ * throw the cell to and fro at its largest rate. The gain leaves room for a factor of two. A
+ * packing that is too loose still is pressed in any case. */
+void cdem_dem_bulk_if_stale(cdem_dem *dem) {
+  const cdem_dem_core *core = dem->store->core;
+  double now = joints(core);
+  if (cdem_cell_is_sought(&dem->store->cell, dem->time, core->stress) &&
+      (now > 2.0 * core->joints || 2.0 * now < core->joints))
+    cdem_dem_bulk(dem);
 }
 
 static void name_limiter(int32_t grain, int32_t contacts, char limiter[64]) {

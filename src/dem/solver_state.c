@@ -75,6 +75,13 @@ static void pack_reals(cdem_dem *dem, double real[REALS], bool in) {
     else
       real[n] = core->base[k];
   }
+  double *more[] = {&core->joints, &core->viscosity};
+  for (size_t k = 0; k < sizeof more / sizeof more[0]; k++, n++) {
+    if (in)
+      *more[k] = real[n];
+    else
+      real[n] = *more[k];
+  }
 }
 
 static cdem_status save_sums(const cdem_dem *dem, cdem_state *state, cdem_fault *fault) {

@@ -31,7 +31,7 @@ static void advance_cell(cdem_dem *dem) {
   double before[27][3];
   memcpy(before, s->image, sizeof before);
   cdem_cell_rate(&s->cell, dem->time, fmax(dem->step, core->response), core->stress, core->bulk,
-                 core->rate);
+                 core->viscosity, core->rate);
   cdem_cell_advance(&s->cell, core->rate, dem->step);
   cdem_cell_images(&s->cell, s->image);
   for (int k = 0; k < 27; k++)

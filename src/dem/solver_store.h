@@ -75,6 +75,7 @@ typedef struct {
   int32_t bad;         /* a grain that moved too far, -1 */
   int32_t broke;       /* bonds in this evaluation */
   bool driven;         /* some of its grains are driven or guided */
+  int32_t touches;     /* pairs that touch */
   double virial[9];    /* sum of f (x) branch; with servo-controlled cells */
   double image[27][3]; /* sum of forces on A across each image */
 } cdem_dem_part;
@@ -151,7 +152,9 @@ struct cdem_dem_core {
   double base[CDEM_DEM_SUMS]; /* half steps before the start */
   double wall_work, cell_work;
   double rate[9], stress[9], bulk; /* cell */
-  double response;                 /* s: of a wave from the faces to the middle */
+  double response;                 /* s: of a wave from the faces to the middle, or of dashpots */
+  double viscosity;                /* Pa s, of the packing along one axis, at most */
+  double joints;                   /* contacts and bonds that bulk and response were found with */
   double image_force[27][3];
   double initial, exchange;
   /* asked for by benches: seconds in test, fill, law, scatter, walls and bonds, motion, lists */
@@ -308,6 +311,8 @@ void cdem_dem_change_step(cdem_dem *dem, double step);
 /* For servos: stiffness of the packing in its cell, Pa, and how long a wave takes from the faces to
  * the middle, s; 0: no contacts. */
 void cdem_dem_bulk(cdem_dem *dem);
+/* The same, if contacts and bonds have become more than twice or less than half as many since. */
+void cdem_dem_bulk_if_stale(cdem_dem *dem);
 
 /* ---- reference.c ---- */
 void cdem_dem_reference(cdem_dem *dem, double step);

@@ -148,9 +148,12 @@ cdem_status cdem_walls_save(const cdem_dem_store *s, cdem_state *state, cdem_fau
 cdem_status cdem_walls_restore(cdem_dem_store *s, const cdem_state *state, cdem_fault *fault);
 
 /* ---- cell_servo.c ---- */
+/* Does a servo seek a stress of which the packing holds half already? Pa, tension positive. */
+bool cdem_cell_is_sought(const cdem_cell *cell, double time, const double stress[9]);
 /* Rate of the cell now: given, or from the mean stress (row-major, Pa, tension positive). bulk: a
- * stiffness of the packing, Pa; response: how long it takes to answer, s, the step or longer. */
+ * stiffness of the packing, Pa; response: how long it takes to answer, s, the step or longer;
+ * viscosity: of its dashpots, Pa s. */
 void cdem_cell_rate(const cdem_cell *cell, double time, double response, const double stress[9],
-                    double bulk, double rate[9]);
+                    double bulk, double viscosity, double rate[9]);
 
 #endif

@@ -165,7 +165,7 @@ static void test_flip(void **state) {
 static double rate_at(const cdem_cell *cell, double stress, double bulk) {
   double sigma[9] = {0.0}, rate[9];
   sigma[4] = stress;
-  cdem_cell_rate(cell, 0.0, 1e-3, sigma, bulk, rate);
+  cdem_cell_rate(cell, 0.0, 1e-3, sigma, bulk, 0.0, rate);
   return rate[4];
 }
 
@@ -188,7 +188,7 @@ static void test_servo(void **state) {
   cell.servo_gain = 0.5;
   check_near(rate_at(&cell, -1001.0, 1e6), 0.5 * 1.0 / (1e6 * 1e-3), 1e-12, 0.0);
   double zero[9] = {0.0}, rate[9];
-  cdem_cell_rate(&cell, 3.0, 1e-3, zero, 1e6, rate);
+  cdem_cell_rate(&cell, 3.0, 1e-3, zero, 1e6, 0.0, rate);
   assert_true(rate[1] == 0.125 && rate[0] == 0.0 && rate[8] == 0.0);
   /* A packing of this stiffness comes to the pressure: dp = -K rate dt. */
   double pressure = 0.0;

@@ -130,6 +130,36 @@ static void a_cell_is_pressed(void **state) {
   cdem_run_summary_release(&s);
 }
 
+/* A servo that presses loose spheres to their stress while one list of candidates lasts: it follows
+ * the packing as that gets stiffer, and the book closes with the step. */
+static void a_fast_servo_keeps_the_book(void **state) {
+  (void)state;
+  static const char *const step[2] = {"step=20 us", "step=5 us"};
+  double error[2];
+  write_case("press.yaml",
+             "end: 5 ms\n"
+             "step: 10 us\n"
+             "grains:\n"
+             "  dimension: 3\n"
+             "  law: hertz\n"
+             "  packing: {kind: loose, low: [0, 0, 0], high: [40 mm, 40 mm, 40 mm], radius: 4 mm, "
+             "count: 60, compact: {fraction: 0.55}}\n"
+             "  materials: {glass: {density: 2500, young: 20 MPa, poisson: 0.25}}\n"
+             "contacts: [{friction: 0.5, restitution: 0.5}]\n"
+             "cell: {rate: {xz: 5 1/s}, stress: {zz: 1 kPa}, servo_rate: 5 1/s}\n"
+             "results:\n"
+             "  stress: {of: stress.zz, take: last}\n"
+             "  error: {of: energy_error, take: last}\n");
+  for (int k = 0; k < 2; k++) {
+    cdem_run_summary s = run_ok("press.yaml", "press", 1, &step[k]);
+    error[k] = key_value(&s, "error");
+    assert_true(key_value(&s, "stress") < -250.0); /* it is pressed, not loose */
+    cdem_run_summary_release(&s);
+  }
+  check_below(error[0], 1e-3);
+  check_below(error[1], error[0] / 4.0); /* at least of first order */
+}
+
 /* The case in the folder names table and surface from the root on, both on one line here, and runs
  * from anywhere; after an override it is written anew. */
 static void the_kept_case_runs_from_anywhere(void **state) {
@@ -265,6 +295,7 @@ int main(void) {
       cmocka_unit_test(a_table_with_bonds_turns),
       cmocka_unit_test(probes_of_contacts),
       cmocka_unit_test(a_cell_is_pressed),
+      cmocka_unit_test(a_fast_servo_keeps_the_book),
       cmocka_unit_test(the_kept_case_runs_from_anywhere),
       cmocka_unit_test(failures_name_their_place),
       cmocka_unit_test(states_on_the_way_are_drawn),
