@@ -9,8 +9,8 @@
  * -ffp-contract=fast, which the room sets for the file of its kernels. CDEM_NO_MULTIVERSION (the
  * sanitizer builds) keeps the baseline alone: the choice is made before their run time is up. So
  * does clang, whose version 14 gives the function a name of its own that no caller finds. Helpers
- * are then left as functions: watched, and inlined into each of twenty kernels, they take a
- * compiler a quarter of an hour, as functions seconds.
+ * are then left as functions: watched, and inlined into every kernel, they keep a compiler for
+ * minutes instead of seconds.
  */
 #ifndef CDEM_BASE_SIMD_H
 #define CDEM_BASE_SIMD_H
