@@ -3,21 +3,11 @@
 #define CDEM_TESTS_IO_MESH_SUPPORT_H
 
 #include "io/io.h"
+#include "support/sanitizers.h"
 #include "support/test.h"
 
 #include <dirent.h>
 #include <unistd.h>
-
-/* gmsh 4.8 and Open CASCADE leak a little and release arrays as single objects; what they do is not
- * ours to mend, and what we allocate is still watched. Read by the sanitizers only. */
-const char *__asan_default_options(void);
-const char *__lsan_default_suppressions(void);
-const char *__asan_default_options(void) {
-  return "alloc_dealloc_mismatch=0";
-}
-const char *__lsan_default_suppressions(void) {
-  return "leak:libgmsh\nleak:libTK\n";
-}
 
 static cdem_fault fault;
 static char folder[64];

@@ -3,6 +3,7 @@
  * missing is 1e-3 of the largest term or less. */
 #include "report/report.h"
 #include "run/book.h"
+#include "run/deformable_tube.h"
 #include "run/support.h"
 
 static const char body[] =
@@ -21,21 +22,7 @@ static const char body[] =
     "supports: [{group: x0, displacement: {x: 0, y: 0}}]\n"
     "loads: [{group: x1, traction: {x: {pulse: 2 MPa, duration: 0.4 ms}}}]\n";
 
-static const char tube[] =
-    "end: 0.4 ms\n"
-    "gravity: [0, 0, -10]\n"
-    "grains:\n"
-    "  dimension: 3\n"
-    "  law: penalty\n"
-    "  deformable: {shape: cubesphere, refinement: 2}\n"
-    "  packing: {kind: loose, cylinder: yes, low: [-0.1, -0.1, 0], high: [0.1, 0.1, 0.15], radius: "
-    "20 mm, count: 24}\n"
-    "  materials: {rock: {density: 2650 kg/m3, young: 40 GPa, poisson: 0.2}}\n"
-    "contacts: [{penalty_stiffness: 1e11 N/m3, friction: 0.3, damping_ratio: 0.2}]\n"
-    "walls:\n"
-    "  floor: {shape: plane, normal: [0, 0, 1]}\n"
-    "  tube: {shape: cylinder, radius: 100 mm, center: [0, 0, 0], axis: [0, 0, 1]}\n"
-    "  lid: {shape: plane, normal: [0, 0, -1], center: [0, 0, 0.15], velocity: {z: -50 m/s}}\n";
+static const char tube[] = "end: 0.4 ms\n" DEFORMABLE_TUBE;
 
 static void run(const char *path, int overrides, const char *const *override) {
   cdem_fault fault = {0};

@@ -4,17 +4,7 @@
 #define CDEM_TESTS_ROBUST_WALK_H
 
 #include "robust/doors_runs.h"
-
-/* gmsh 4.8 and Open CASCADE leak a little and release arrays as single objects; what they do is not
- * ours to mend, and what we allocate is still watched. Read by the sanitizers only. */
-const char *__asan_default_options(void);
-const char *__lsan_default_suppressions(void);
-const char *__asan_default_options(void) {
-  return "alloc_dealloc_mismatch=0";
-}
-const char *__lsan_default_suppressions(void) {
-  return "leak:libgmsh\nleak:libTK\n";
-}
+#include "support/sanitizers.h"
 
 static const door doors[] = {
 #define D(its_name, its_kind, its_text, ...)                                                       \
