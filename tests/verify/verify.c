@@ -2,8 +2,10 @@
  * carried out, a wrong name, or a wish to stop is told as it should be. */
 #include "verify/verify.h"
 
+#include "io/case_file.h"
 #include "springs/springs.h"
 #include "support/test.h"
+#include "verify/cases.h"
 #include "verify/springs.h"
 
 static void print_skipped(void *context, const char *group, const char *name, const char *reason) {
@@ -87,6 +89,32 @@ static void a_hundred_references_come_from_outside(void **state) {
   assert_true(outside >= 100);
 }
 
+/* The group `cases` and the case files state each tolerance once for each reader. */
+static void cases_keep_the_tolerances_of_their_files(void **state) {
+  (void)state;
+  const cdem_verify_group *group = cdem_verify_group_find("cases");
+  for (int i = 0; i < group->checks; i++) {
+    const cdem_verification *check = &group->check[i];
+    cdem_fault fault = {0};
+    cdem_case read = {0};
+    char path[256];
+    bool found = false;
+    snprintf(path, sizeof path, "%s/cases/%.*s.yaml", CDEM_DATA, (int)strcspn(check->name, ":"),
+             check->name);
+    check_ok(cdem_read_case(path, 0, NULL, &read, &fault));
+    for (int64_t k = 0; k < read.values.results.count; k++) {
+      const cdem_case_key_result *key = &read.values.results.item[k];
+      if (strcmp(key->name, cdem_cases_key(check->parameter)) != 0)
+        continue;
+      found = true;
+      if (key->tolerance != check->tolerance)
+        fail_msg("%s: %g here, %g in the file", check->name, check->tolerance, key->tolerance);
+    }
+    assert_true(found);
+    cdem_case_release(&read);
+  }
+}
+
 static void unknown_groups_are_named(void **state) {
   (void)state;
   cdem_fault fault = {0};
@@ -153,6 +181,7 @@ int main(void) {
       cmocka_unit_test(reference_table_holds_the_depletion),
       cmocka_unit_test(tables_are_sound),
       cmocka_unit_test(a_hundred_references_come_from_outside),
+      cmocka_unit_test(cases_keep_the_tolerances_of_their_files),
       cmocka_unit_test(unknown_groups_are_named),
       cmocka_unit_test(checks_that_cannot_run_are_told),
   };
