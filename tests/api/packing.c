@@ -31,6 +31,9 @@ static void a_lattice_touches_and_stays_in_its_box(void **state) {
   check_ok(libcdem_packing_make(packing, NULL, &fault));
   assert_int_equal(libcdem_packing_grains(packing), 125);
   assert_true(fabs(overlap(packing)) < 1e-12);
+  const double *xyz = libcdem_packing_centres(packing);
+  for (int k = 0; k < 3 * 125; k++) /* a radius away from the faces */
+    assert_true(xyz[k] >= low[k % 3] + 0.01 - 1e-12 && xyz[k] <= high[k % 3] - 0.01 + 1e-12);
   check_ok(libcdem_packing_write(packing, in_scratch("a.csv"), &fault));
   assert_int_equal(stat(in_scratch("a.csv"), &file), 0);
   libcdem_packing_destroy(&packing);

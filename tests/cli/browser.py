@@ -203,6 +203,8 @@ def judge(name, scheme, url, measured, asked, reported):
     wrong += [f"not decoded: {t}" for t in measured["undecoded"]]
     if measured["texts"] < 50:
         wrong.append(f"only {measured['texts']} texts")
+    if not measured["curves"]:
+        wrong.append("there are no curves")
     if not measured["alts"]:
         wrong.append("a picture has no text in its place")
     if not measured["anchors"]:

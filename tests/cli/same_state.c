@@ -8,8 +8,8 @@
 static bool same_array(const cdem_array *a, const cdem_array *b) {
   if (b == NULL || a->type != b->type || a->count != b->count)
     return false;
-  return a->count == 0 || strcmp(a->name, "run/reals") == 0 ||
-         memcmp(a->data, b->data, (size_t)a->count * cdem_array_size(a->type)) == 0;
+  int64_t count = strcmp(a->name, "run/reals") == 0 ? 1 : a->count; /* behind it the wall time */
+  return count == 0 || memcmp(a->data, b->data, (size_t)count * cdem_array_size(a->type)) == 0;
 }
 
 static int compare(const cdem_state *a, const cdem_state *b) {

@@ -66,11 +66,12 @@ done
 # The counter-proof.
 cat >bad.html <<'PAGE'
 <!DOCTYPE html><html><head><meta name="viewport" content="width=device-width"/><title>Bad</title></head>
-<body style="background:#888"><p style="color:#999;width:2000px">hard to read and wide</p><a href="#nowhere">lost</a>
+<body style="background:#888"><p style="color:#999;width:2000px">hard to read and wide</p>
+<p style="font-size:6px">tiny</p><a href="#nowhere">lost</a>
 <img src="data:image/png;base64,Zm9v"/><img src="http://pictures.invalid/x.png"/><script>nosuch()</script></body></html>
 PAGE
 python3 "$source/tests/cli/browser.py" bad.html shots-bad >bad.log && { echo "a bad page has passed"; exit 1; }
-for fault in 'asks for http://pictures.invalid' 'the proxy was called: ' 'reports ' 'scrolls sideways: ' 'low contrast: ' 'not decoded: ' \
+for fault in 'asks for http://pictures.invalid' 'the proxy was called: ' 'reports ' 'scrolls sideways: ' 'low contrast: ' 'small text: ' 'there are no curves' 'not decoded: ' \
   'no text in its place' 'leads to no place' 'the ground has'; do
   grep -q "$fault" bad.log || { echo "not found on a bad page: $fault"; cat bad.log; exit 1; }
 done

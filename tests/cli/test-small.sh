@@ -19,7 +19,7 @@ for file in "$cases"/*.yaml; do
   done
   # At the end, since the error is relative to the work done so far.
   awk -F, -v name="$name" 'NR == 1 {for (i = 1; i <= NF; i++) if ($i == "energy_error") c = i; next} {last = $c}
-    END {if (!c || last == "" || !(last + 0 < 5e-3)) {print name ": energy error " last; exit 1}}' "$work/1/history.csv" || failed=1
+    END {if (!c || last !~ /^[0-9][0-9.e+-]*$/ || !(last + 0 < 5e-3)) {print name ": energy error " last; exit 1}}' "$work/1/history.csv" || failed=1
   rm -r "$work/1" "$work/3"
 done
 exit $failed

@@ -14,7 +14,7 @@ for file in "$root/bin/cdem" "$(find "$root" -name 'libcdem.so.*.*')"; do
 done
 # One header, and no library that the program would need of its own.
 [ "$(find "$root/include" -name '*.h')" = "$root/include/libcdem.h" ]
-! readelf -d "$root/bin/cdem" | grep libcdem
+! readelf -d "$root/bin/cdem" | grep libcdem || { echo "cdem needs libcdem.so"; exit 1; }
 "$root/bin/cdem" springs "$root/share/cdem/meshes/block-with-hole.geo" --material "$root/share/cdem/materials/granite.yaml" -q >/dev/null
 if [ -d "$build/man" ]; then # help2man was there
   commands=$("$root/bin/cdem" --help | sed -n 's/^  \([a-z]*\)  .*/\1/p')

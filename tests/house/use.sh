@@ -26,7 +26,8 @@ awk -F '\t' 'NR > 1 { off = $2 / (3e6 / (0.48 - 0.36 * $1)) - 1; if (off < 0) of
 [ -s "$work/run-2/summary.json" ]
 code=0
 "$work/strength" "$data/cases/compression.yaml" interfaces.friction "$work/bad" 1 2>"$work/error" || code=$?
-[ $code -eq 3 ] && grep -q '^error: interfaces.friction = 1: ' "$work/error" && [ ! -e "$work/bad-1" ]
+[ $code -eq 3 ] && grep -q '^error: interfaces.friction = 1: ' "$work/error" && [ ! -e "$work/bad-1" ] ||
+  { echo "a wrong key: exit code $code"; cat "$work/error"; exit 1; }
 
 mkdir "$work/project"
 cat >"$work/project/CMakeLists.txt" <<END
