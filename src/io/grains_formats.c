@@ -58,13 +58,6 @@ static void add_lost(char lost[LOST], int64_t count, const char *one, const char
     snprintf(lost + used, LOST - used, "%s", one);
 }
 
-static bool has_guided(const cdem_grains *grains) {
-  for (int64_t i = 0; i < grains->grains; i++)
-    if ((grains->motion[i] & CDEM_GRAIN_GUIDED) != 0)
-      return true;
-  return false;
-}
-
 static bool deforms(const cdem_cell *cell) {
   for (int e = 0; cell != NULL && e < 9; e++)
     if (cell->rate[e].points > 0 || cell->servo[e / 3])
@@ -92,7 +85,6 @@ static void find_lost(const cdem_scene *scene, const cdem_grain_format *format, 
   add_lost(lost, turns, "rolling and twisting resistance", NULL);
   add_lost(lost, model->mass_damping > 0.0 || model->local_damping > 0.0, "mass or local damping",
            NULL);
-  add_lost(lost, has_guided(&scene->grains), "the guidance of grains, which are free", NULL);
   add_lost(lost, scene->dem->steps > 0, "what contacts remember of their sliding", NULL);
 }
 

@@ -126,10 +126,7 @@ static void what_is_lost_is_said(void **state) {
   lacks(&scene, "a.data", "a wall");
   lacks(&scene, "a.py", "a wall, the dashpots of contacts");
   check_ok(cdem_dem_steps(&dem, 2, &fault));
-  scene.grains.motion[5] = CDEM_GRAIN_GUIDED | 1;
-  lacks(&scene, "a.data",
-        "a wall, the guidance of grains, which are free, what contacts remember of their sliding");
-  scene.grains.motion[5] = CDEM_GRAIN_FREE;
+  lacks(&scene, "a.data", "a wall, what contacts remember of their sliding");
   cdem_dem_release(&dem);
   /* The shear dashpot a constant, the normal one not: no multiple of it for all masses. */
   ask(3.0);
