@@ -58,7 +58,7 @@ for file in "$source"/tests/small/*.yaml; do
   watch "$name" "$cdem" run -q --no-figures "$file" -o "$name-run"
 done
 meshes=$source/data/meshes
-for format in csv h5 vtp mtx inp; do
+for format in csv h5 vtp vtu mtx inp data py; do
   watch "springs-$format" "$cdem" springs "$meshes/mixed.msh" -E 1 --nu 0.2 -o "springs.$format"
 done
 watch springs-inp-mesh "$cdem" springs "$meshes/cantilever.inp" --material "$source/data/materials/granite.yaml" -o deck.csv
@@ -68,6 +68,8 @@ watch poisson-roots "$cdem" poisson --element tet4 --from -0.9 --to 0.4 --step 0
 watch pack-square "$cdem" pack square --size 0.1,0.1 --radius 0.005 -o square.csv
 watch pack-inward "$cdem" pack inward --size 0.1,0.1 --sizes uniform --least 0.002 --most 0.005 -o inward.csv
 watch pack-loose "$cdem" pack loose --size 0.1,0.1,0.1 --radius 0.01 --count 60 --compact --fraction 0.4 -o loose.vtp
+watch report "$cdem" report discs-run
+watch export "$cdem" export discs-run -o discs.data -o discs.py -o discs.csv
 watch scale "$cdem" scale "$source/tests/small/discs.yaml" --h 2 -o scaled.yaml
 rm -f "$work/discs-run/summary.json" # as if it had been killed at its end
 watch resume "$cdem" run -q --no-figures --resume discs-run

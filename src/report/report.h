@@ -4,10 +4,11 @@
  * the network, styles and pictures inside, readable in light and dark, on a phone and on paper.
  * Only links to the files of the run lead out of it, relative to where the page lies.
  *
- *     source.c                 what is read: case, summary, history, pictures, what lies in the
- * folder page.c, page_*.c         the page as text, one file a few sections; no file is opened
- * there style.c                  its look chart.c, number.c, text.c  curves as inline SVG; numbers;
- * escaping
+ *     source.c           what is read: case, summary, history, pictures, folder
+ *     page.c, page_*.c   the page as text; no file is opened there
+ *     style.c            its look
+ *     chart.c            curves as inline SVG
+ *     number.c, text.c   numbers; escaping
  *
  * The case and its schema say which settings there are, their units, and which are defaults; the
  * summary what came out; the history the curves and the energy book. A run that has not ended has

@@ -7,7 +7,8 @@
  * over the columns of one book. A run has one, a coupled run two: that of the medium ("coarse.")
  * and that of the grains ("fine."), whose work by the interface is the column fine.driven. What the
  * solvers know beyond the columns (the energy of half a step, changes of the step) is of the size
- * of the error. tests/report/runs.c holds the sums of finished runs of every engine against it.
+ * of the error. tests/report/runs_slow.c holds the sums of finished runs of every engine against
+ * it.
  */
 #ifndef CDEM_RUN_BOOK_H
 #define CDEM_RUN_BOOK_H
