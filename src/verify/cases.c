@@ -114,7 +114,6 @@ static const cdem_verification checks[] = {
      MEASURE(LAW, BIAXIAL_PRESSURE), .slow = true},
     {"triaxial: lateral stress in the shear", "the membrane's 0.9 MPa", 1, 0.01,
      MEASURE(LAW, TRIAXIAL), .slow = true},
-    /* Twice the scatter of the load in that window. */
     {"foundation-a: load on the plate, 58 to 60 ms", "Li & Wan 2010, table 2: 1.691 MN", 1, 0.04,
      MEASURE(PUBLISHED, FOUNDATION), .slow = true},
 };
