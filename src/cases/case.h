@@ -177,6 +177,13 @@ typedef struct {
   cdem_case_texts of; /* pictures; none: all */
 } cdem_case_picture_window;
 
+/* grains: fields: a grid of points; without count there is none */
+typedef struct {
+  double low[3], high[3]; /* m */
+  double count[3];        /* points a direction, whole numbers; discs: the third is 0 */
+  double width;           /* of the average, m; NaN: two mean diameters */
+} cdem_case_fields;
+
 /* grains: deformable: */
 typedef struct {
   int shape;          /* index into fdem/shapes.def */
@@ -190,7 +197,7 @@ typedef struct {
 } cdem_case_deformable;
 
 /* grains: */
-enum { CDEM_CASE_PICTURE_TIMES = 8 };
+enum { CDEM_CASE_PICTURE_TIMES = 8, CDEM_CASE_FIELD_POINTS = 100000000 };
 typedef struct {
   int64_t dimension;          /* 2 or 3 */
   int law, rolling, twisting; /* index into laws.def, resistances.def */
@@ -205,6 +212,7 @@ typedef struct {
   cdem_case_picture_window picture_window;
   cdem_case_picture_ranges picture_ranges;
   double picture_times[CDEM_CASE_PICTURE_TIMES]; /* s, earlier states; 0: none */
+  cdem_case_fields fields;
 } cdem_case_grains;
 
 /* contacts: - ; the first entry that fits a pair of materials is its law */

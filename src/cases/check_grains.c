@@ -235,6 +235,37 @@ static cdem_status check_pictures(const cdem_case *cases, cdem_fault *fault) {
   return CDEM_OK;
 }
 
+/* ---- fields ---- */
+
+static cdem_status check_fields(const cdem_case *cases, cdem_fault *fault) {
+  const cdem_case_fields *f = &cases->values.grains.fields;
+  char key[CDEM_CASE_PATH];
+  double points = 1.0;
+  for (int k = 0; k < cases->values.grains.dimension; k++) {
+    snprintf(key, sizeof key, "grains.fields.high[%d]", k);
+    if (!(f->low[k] <= f->high[k]))
+      return cdem_case_fail(cases, key, CDEM_INPUT, fault,
+                            "fields from %g to %g m along %c: 'high' must not be below 'low'",
+                            f->low[k], f->high[k], "xyz"[k]);
+    snprintf(key, sizeof key, "grains.fields.count[%d]", k);
+    if (!(f->count[k] >= 1.0 && f->count[k] == floor(f->count[k])))
+      return cdem_case_fail(cases, key, CDEM_INPUT, fault,
+                            "%g points of the fields along %c; they are counted by whole numbers "
+                            "from 1 on",
+                            f->count[k], "xyz"[k]);
+    points *= f->count[k];
+  }
+  if (points > CDEM_CASE_FIELD_POINTS)
+    return cdem_case_fail(cases, "grains.fields.count", CDEM_INPUT, fault,
+                          "%g points of the fields; at most %d are possible", points,
+                          CDEM_CASE_FIELD_POINTS);
+  if (cases->values.grains.dimension == 2 && f->count[2] > 1.0)
+    return cdem_case_fail(cases, "grains.fields.count[2]", CDEM_INPUT, fault,
+                          "discs move in the plane z = 0: their fields have one layer, not %g",
+                          f->count[2]);
+  return CDEM_OK;
+}
+
 /* ---- grains that deform ---- */
 
 enum {
@@ -253,6 +284,7 @@ static cdem_status check_deformable(const cdem_case *cases, cdem_fault *fault) {
       {"bonds", "their contacts only push"},
       {"cell", "they do not know periodic cells"},
       {"probes", "the columns of their history hold pushes, fabric and stress anyway"},
+      {"grains.fields", "they are averaged over rigid grains"},
       {"grains.pictures", "frames show them, and the distribution of pushes is drawn anyway"},
       {"grains.rolling", "their faces resist it"},
       {"grains.twisting", "their faces resist it"},
@@ -311,5 +343,7 @@ cdem_status cdem_case_check_grains(const cdem_case *cases, cdem_fault *fault) {
     CDEM_TRY(check_between(cases, "contacts", i, &v->contacts.item[i].between, fault));
   for (int64_t i = 0; i < v->bonds.count; i++)
     CDEM_TRY(check_bond(cases, i, fault));
+  if (cdem_case_given(cases, "grains.fields"))
+    CDEM_TRY(check_fields(cases, fault));
   return check_pictures(cases, fault);
 }

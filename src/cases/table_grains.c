@@ -185,6 +185,27 @@ static const cdem_case_section section_ranges = SECTION(
     "picture ranges", cdem_case_picture_ranges, ranges,
     .help = "Ends of the colour bars of pictures, so that those of several runs can be compared.");
 
+/* ---- fields ---- */
+
+#define FIELDS(member) AT(cdem_case_fields, member)
+static const cdem_case_key fields[] = {
+    {FIELDS(low), .kind = CDEM_KEY_VECTOR, .dimension = LENGTH, .length = 3, .fewest = 2,
+     .required = true, DOMAIN, .help = "The point of the grid with the smallest coordinates.",
+     .example = "[-3.5 m, -3.5 m]"},
+    {FIELDS(high), .kind = CDEM_KEY_VECTOR, .dimension = LENGTH, .length = 3, .fewest = 2,
+     .required = true, DOMAIN, .help = "The point of the grid with the largest coordinates.",
+     .example = "[3.5 m, 0 m]"},
+    {FIELDS(count), .kind = CDEM_KEY_VECTOR, .length = 3, .fewest = 2, AT_LEAST(1),
+     .required = true, .help = "Points a direction; one lies in the middle.",
+     .example = "[36, 18]"},
+    {FIELDS(width), .kind = CDEM_KEY_NUMBER, .dimension = LENGTH, .fallback = NAN, POSITIVE, GRAIN,
+     .otherwise = "two mean diameters",
+     .help = "How far from a point grains and contacts still count.", .example = "0.3 m"},
+};
+static const cdem_case_section section_fields = SECTION(
+    "fields", cdem_case_fields, fields,
+    .help = "A grid on which density, velocity and stress are averaged, a data set of the frames.");
+
 /* ---- grains ---- */
 
 #define GRAINS(member) AT(cdem_case_grains, member)
@@ -223,7 +244,8 @@ static const cdem_case_key grains[] = {
          "pressure, effective_stress, volumetric_strain, effective_strain (since the start) or "
          "contacts; force "
          "chains; velocities as arrows; pushes: the distribution of the normal forces between "
-         "grains over their mean.",
+         "grains over their mean; directions: how many contacts point where, and how hard they "
+         "push.",
      .example = "[effective_strain, chains]"},
     {GRAINS(picture_window), .kind = CDEM_KEY_SECTION, .section = &section_window,
      .otherwise = "everything", .help = "Pictures that show a part.",
@@ -234,6 +256,9 @@ static const cdem_case_key grains[] = {
     {GRAINS(picture_times), .kind = CDEM_KEY_VECTOR, .dimension = TIME,
      .length = CDEM_CASE_PICTURE_TIMES, .fewest = 1, DOMAIN, .otherwise = "none",
      .help = "Times whose states are drawn too, as NAME-15ms.png.", .example = "[15 ms, 33 ms]"},
+    {GRAINS(fields), .kind = CDEM_KEY_SECTION, .section = &section_fields, .otherwise = "none",
+     .help = "Coarse-grained fields of the frames: what the grains are as a continuum.",
+     .example = "{low: [0, 0], high: [1 m, 1 m], count: [21, 21], width: 0.1 m}"},
 };
 const cdem_case_section cdem_section_grains =
     SECTION("grains", cdem_case_grains, grains, .shorthand = NULL,

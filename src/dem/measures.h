@@ -99,10 +99,6 @@ typedef struct {
 void cdem_band_find(int64_t grains, const double *xyz, const double *effective,
                     const cdem_region *region, cdem_band *band);
 
-/* Distribution of the push of contacts between grains: rows of a table (push over its mean, from 0
- * to the largest; count; probability density). */
-cdem_status cdem_force_distribution(const cdem_dem *dem, int bins, cdem_table *table,
-                                    cdem_fault *fault);
 /* Directions of contacts between grains: bins of the angle of n to x in 0 .. pi (2-D), of |cos| to
  * z (3-D), with count, density (integral 1), mean push and mean shear force, N. */
 cdem_status cdem_normal_distribution(const cdem_dem *dem, int bins, cdem_table *table,

@@ -1,4 +1,4 @@
-/* Distributions of forces and directions, and profiles, as tables. */
+/* The distribution of directions, and profiles, as tables. */
 #include "dem/measures_kernels.h"
 
 #include <stdlib.h>
@@ -39,41 +39,6 @@ static cdem_status end(cdem_status status, cdem_snapshot *s, double *sums, cdem_
 static int bin_of(double place, int bins) {
   int at = (int)(place * bins);
   return at < 0 ? 0 : at < bins ? at : bins - 1;
-}
-
-/* ---- forces ---- */
-
-static cdem_status fill_forces(const cdem_snapshot *s, int bins, double *count, cdem_table *table,
-                               cdem_fault *fault) {
-  static const heading columns[] = {{"push_over_mean", ""}, {"contacts", ""}, {"density", ""}};
-  double mean = 0.0, largest = 0.0, contacts = 0.0;
-  CDEM_TRY(begin(bins, 3, columns, table, fault));
-  for (int64_t k = 0; k < s->contacts; k++)
-    if (s->contact[k].b >= 0 && s->contact[k].push > 0.0) {
-      mean += s->contact[k].push;
-      largest = fmax(largest, s->contact[k].push);
-      contacts += 1.0;
-    }
-  mean /= fmax(1.0, contacts);
-  for (int64_t k = 0; k < s->contacts; k++)
-    if (s->contact[k].b >= 0 && s->contact[k].push > 0.0)
-      count[bin_of(s->contact[k].push / largest, bins)] += 1.0;
-  double width = contacts > 0.0 ? largest / mean / bins : 1.0 / bins;
-  for (int b = 0; b < bins; b++) {
-    const double row[3] = {(b + 0.5) * width, count[b], count[b] / fmax(1.0, contacts) / width};
-    CDEM_TRY(put_row(table, 3, row, fault));
-  }
-  return CDEM_OK;
-}
-
-cdem_status cdem_force_distribution(const cdem_dem *dem, int bins, cdem_table *table,
-                                    cdem_fault *fault) {
-  cdem_snapshot s;
-  cdem_table made = {0};
-  CDEM_TRY(cdem_snapshot_take(dem, &s, fault));
-  double *sums = cdem_allocate(bins > 0 ? bins : 0, sizeof *sums, fault);
-  cdem_status status = sums != NULL ? fill_forces(&s, bins, sums, &made, fault) : CDEM_MEMORY;
-  return end(status, &s, sums, &made, table);
 }
 
 /* ---- normals ---- */

@@ -1,6 +1,5 @@
 /* Frames of a coupled case: those of body and grains, and "projection": the elements of the fine
  * region as the projection of its grains moves them. */
-#include "dem/frames.h"
 #include "results/frame_draft.h"
 #include "run/coupled.h"
 
@@ -108,6 +107,6 @@ cdem_status cdem_run_coupled_frames(cdem_run_setup *run, int64_t index, const cd
     CDEM_TRY(cdem_solver_frames(&c->body->solver, index, &body, fault));
   if (!c->has_grains)
     return CDEM_OK;
-  CDEM_TRY(cdem_dem_frames(&c->grains->dem, c->strain, index, sink, fault));
+  CDEM_TRY(cdem_run_grains_frames(c->grains, c->strain, index, sink, fault));
   return projection(c, index, sink, fault);
 }

@@ -177,9 +177,8 @@ static void label_body(const cdem_picture *picture, int choice, cdem_map *map) {
 static cdem_status draw(const cdem_run_coupled *c, int choice, const char *title,
                         const char *folder, const char *tag, cdem_fault *fault) {
   char name[96];
-  if (choice == CDEM_RUN_PUSHES)
-    return c->has_grains ? cdem_run_dem_pushes(&c->grains->dem, title, folder,
-                                               cdem_run_picture_file(name, choice, tag), fault)
+  if (choice >= CDEM_RUN_MAPS)
+    return c->has_grains ? cdem_run_grains_curve(c->grains, choice, title, folder, tag, fault)
                          : CDEM_OK;
   cdem_picture picture = cdem_run_picture(c->run, choice, c->strain, title);
   cdem_map map = {0};

@@ -95,17 +95,21 @@ void cdem_run_grains_columns(cdem_run_setup *run, cdem_run_row *row);
 const char *cdem_run_grains_unit(const cdem_case_probe *probe);
 cdem_status cdem_run_grains_probe(cdem_run_grains *g, const cdem_case_probe *probe, double *value,
                                   cdem_fault *fault);
+/* grains_frames.c: with the coarse-grained fields of the case; strain: NULL, or of the start */
+cdem_status cdem_run_grains_frames(const cdem_run_grains *g, const cdem_strain_reference *strain,
+                                   int64_t index, const cdem_frame_sink *sink, cdem_fault *fault);
 /* grains_pictures.c: which are wanted, and what pictures and probes need of the start */
 cdem_status cdem_run_grains_pictures_init(cdem_run_grains *g, cdem_fault *fault);
 cdem_status cdem_run_grains_pictures(cdem_run_setup *run, const char *folder, const char *tag,
                                      cdem_fault *fault);
-/* ... names in grains.pictures: fields of grains and two more, which are maps; and a curve, the
- * distribution of the pushes; -1: no such */
+/* ... names in grains.pictures: fields of grains and two more, which are maps; and curves of the
+ * contacts, the distributions of their pushes and of their directions; -1: no such */
 enum {
   CDEM_RUN_CHAINS = CDEM_GRAIN_FIELDS,
   CDEM_RUN_VELOCITIES,
   CDEM_RUN_MAPS,
   CDEM_RUN_PUSHES = CDEM_RUN_MAPS,
+  CDEM_RUN_DIRECTIONS,
   CDEM_RUN_CHOICES
 };
 int cdem_run_picture_find(const char *name);
@@ -115,8 +119,9 @@ cdem_picture cdem_run_picture(const cdem_run_setup *run, int choice,
 /* grains_pushes.c: the distribution of the pushes over their mean, as figure and data */
 cdem_status cdem_run_pushes(int64_t contacts, const cdem_push *push, const char *title,
                             const char *folder, const char *name, cdem_fault *fault);
-cdem_status cdem_run_dem_pushes(const cdem_dem *dem, const char *title, const char *folder,
-                                const char *name, cdem_fault *fault);
+/* grains_curves.c: the curves of the contacts */
+cdem_status cdem_run_grains_curve(const cdem_run_grains *g, int choice, const char *title,
+                                  const char *folder, const char *tag, cdem_fault *fault);
 /* ... name of its file; of displacement it is "pattern", as for bodies */
 const char *cdem_run_picture_file(char text[96], int choice, const char *tag);
 

@@ -1,5 +1,4 @@
 /* The engine of grains: what the files of a run ask of it, answered by the solver. */
-#include "dem/frames.h"
 #include "run/grains.h"
 
 #include <math.h>
@@ -129,7 +128,7 @@ static double unbalanced(const cdem_run_setup *run) {
 
 static cdem_status frames(cdem_run_setup *run, int64_t index, const cdem_frame_sink *sink,
                           cdem_fault *fault) {
-  return cdem_dem_frames(&grains_of(run)->dem, NULL, index, sink, fault);
+  return cdem_run_grains_frames(grains_of(run), NULL, index, sink, fault);
 }
 
 /* ---- sizes ---- */

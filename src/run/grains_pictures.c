@@ -13,6 +13,7 @@ static const char *choice_name(int choice) {
   return choice == CDEM_RUN_CHAINS       ? "chains"
          : choice == CDEM_RUN_VELOCITIES ? "velocities"
          : choice == CDEM_RUN_PUSHES     ? "pushes"
+         : choice == CDEM_RUN_DIRECTIONS ? "directions"
                                          : cdem_grain_field_name(choice);
 }
 
@@ -110,9 +111,8 @@ cdem_status cdem_run_grains_pictures_init(cdem_run_grains *g, cdem_fault *fault)
 static cdem_status draw(const cdem_run_grains *g, int choice, const char *title, const char *folder,
                         const char *tag, cdem_fault *fault) {
   char name[96];
-  if (choice == CDEM_RUN_PUSHES)
-    return cdem_run_dem_pushes(&g->dem, title, folder, cdem_run_picture_file(name, choice, tag),
-                               fault);
+  if (choice >= CDEM_RUN_MAPS)
+    return cdem_run_grains_curve(g, choice, title, folder, tag, fault);
   const cdem_picture picture = cdem_run_picture(g->run, choice, g->strain, title);
   cdem_map map = {0};
   cdem_status status = cdem_dem_picture(&g->dem, &picture, &map, fault);

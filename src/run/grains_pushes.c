@@ -4,7 +4,6 @@
 #include "run/grains.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /* From a hundredth of the mean to twenty of it, ten bins a decade. */
 enum { BINS = 33 };
@@ -37,15 +36,5 @@ cdem_status cdem_run_pushes(int64_t contacts, const cdem_push *push, const char 
   if (status == CDEM_OK)
     status = draw(&table, title, folder, name, fault);
   cdem_table_release(&table);
-  return status;
-}
-
-cdem_status cdem_run_dem_pushes(const cdem_dem *dem, const char *title, const char *folder,
-                                const char *name, cdem_fault *fault) {
-  cdem_push *push;
-  int64_t contacts;
-  CDEM_TRY(cdem_dem_pushes(dem, &contacts, &push, fault));
-  cdem_status status = cdem_run_pushes(contacts, push, title, folder, name, fault);
-  free(push);
   return status;
 }

@@ -195,20 +195,16 @@ static void distributions_are_densities(void **unused) {
   box b;
   fill(&b, 2000, 1);
   cdem_fault fault = {0};
-  cdem_table forces = {0}, normals = {0}, profile = {0};
-  check_ok(cdem_force_distribution(&b.dem, 7, &forces, &fault));
+  cdem_table normals = {0}, profile = {0};
   check_ok(cdem_normal_distribution(&b.dem, 9, &normals, &fault));
   check_ok(cdem_solid_profile(&b.dem, 1, NULL, 11, &profile, &fault));
-  double sum[3] = {0}, area = 0, solid = 0;
-  for (int64_t r = 0; r < forces.rows; r++)
-    sum[0] += cdem_table_at(&forces, r, 2)->real * 2 * cdem_table_at(&forces, 0, 0)->real;
+  double sum[2] = {0}, area = 0, solid = 0;
   for (int64_t r = 0; r < normals.rows; r++)
-    sum[1] += cdem_table_at(&normals, r, 2)->real * 3.14159265358979323846 / 9;
+    sum[0] += cdem_table_at(&normals, r, 2)->real * 3.14159265358979323846 / 9;
   for (int64_t r = 0; r < profile.rows; r++)
-    sum[2] += cdem_table_at(&profile, r, 2)->real;
+    sum[1] += cdem_table_at(&profile, r, 2)->real;
   check_near(sum[0], 1, 1e-12, 0);
-  check_near(sum[1], 1, 1e-12, 0);
-  check_near(sum[2], DISCS, 0, 0);
+  check_near(sum[1], DISCS, 0, 0);
   double low[3], high[3];
   cdem_snapshot s;
   check_ok(cdem_snapshot_take(&b.dem, &s, &fault));
@@ -226,10 +222,9 @@ static void distributions_are_densities(void **unused) {
   check_near(below.mass + above.mass, all.mass, 1e-13, 0);
   check_near(below.flow[1] * 1.5 + above.flow[1] * 8.5, all.momentum[1], 1e-12, 1e-15);
   assert_true(below.high[1] < 0.5 && above.low[1] >= 0.5);
-  check_fails(cdem_force_distribution(&b.dem, 0, &forces, &fault), CDEM_USAGE, "0 bins");
+  check_fails(cdem_normal_distribution(&b.dem, 0, &normals, &fault), CDEM_USAGE, "0 bins");
   check_fails(cdem_solid_profile(&b.dem, 2, NULL, 5, &profile, &fault), CDEM_USAGE, "along axis 2");
   cdem_snapshot_release(&s);
-  cdem_table_release(&forces);
   cdem_table_release(&normals);
   cdem_table_release(&profile);
   empty(&b);

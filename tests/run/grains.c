@@ -205,13 +205,22 @@ static void failures_name_their_place(void **state) {
   check_bad("box.yaml", "grains.picture_ranges={chains: [1 kN, 0]}",
             "a colour bar from 1000 to 0: the second end must be above the first");
   check_bad("box.yaml", "grains.picture_times=[1 ms, -2 ms]", "a picture at -0.002 s");
+  check_bad("box.yaml", "grains.fields={low: [0, 1], high: [1, 0], count: [2, 2]}",
+            "fields from 1 to 0 m along y: 'high' must not be below 'low'");
+  check_bad("box.yaml", "grains.fields={low: [0, 0], high: [1, 1], count: [2, 2.5]}",
+            "2.5 points of the fields along y; they are counted by whole numbers");
+  check_bad("box.yaml", "grains.fields={low: [0, 0], high: [1, 1], count: [2, 2, 3]}",
+            "discs move in the plane z = 0: their fields have one layer, not 3");
+  check_bad("box.yaml", "grains.fields={low: [0, 0], high: [1, 1], count: [1e5, 1e5]}",
+            "1e+10 points of the fields; at most 100000000 are possible");
+  check_bad("box.yaml", "grains.fields={low: [0, 0], high: [1, 1]}", "count");
 }
 
 /* Pictures of states on the way have their time in their name, and change no bit of the run. */
 static void states_on_the_way_are_drawn(void **state) {
   (void)state;
   const char *const override[] = {"grains.picture_times=[2 ms, 10.1 ms]", "end=12 ms",
-                                  "grains.pictures=[effective_strain, pushes]",
+                                  "grains.pictures=[effective_strain, pushes, directions]",
                                   "probes.band.quantity=band_slenderness"};
   cdem_fault fault = {0};
   cdem_run_summary summary;
@@ -229,11 +238,50 @@ static void states_on_the_way_are_drawn(void **state) {
     cdem_run_summary_release(&summary);
   }
   assert_true(is_there("drawn/figures/effective_strain.png"));
+  assert_true(is_there("drawn/figures/directions.png"));
+  assert_true(holds("drawn/figures/directions.gp", "Directions of contacts"));
   assert_true(is_there("drawn/figures/pushes.png") && is_there("drawn/figures/pushes-2ms.dat"));
   assert_true(is_there("drawn/figures/effective_strain-2ms.png"));
   assert_true(is_there("drawn/figures/effective_strain-10.1ms.png"));
   assert_true(holds("drawn/figures/effective_strain-2ms.gp", "'t = 2"));
   assert_true(same_files("plain/history.csv", "drawn/history.csv"));
+}
+
+/* One contact at 30 degrees, or along z: the first term of its density is that of a pair of peaks,
+ * (1 + 2 cos 2 (angle - 30 degrees)) / pi and 1 + 5 (3 c^2 - 1)/2; both have the set of fields. */
+static void directions_and_fields(void **state) {
+  (void)state;
+  static const char *const second[2] = {"8.66025403784,5,0", "0,0,9.9"},
+                           *const term[2] = {"a = 2.000 at 30", "a = 5.000"},
+                           *const count[2] = {"3, 2", "3, 2, 2"};
+  for (int dim = 2; dim <= 3; dim++) {
+    char table[160], text[600];
+    cdem_fault fault = {0};
+    cdem_run_summary summary;
+    snprintf(table, sizeof table,
+             "x [mm],y [mm],z [mm],radius [mm],material\n0,0,0,5.1,s\n%s,5.1,s\n", second[dim - 2]);
+    snprintf(text, sizeof text,
+             "end: 1e-8 s\ngrains:\n  {dimension: %d, file: pair.csv, materials: {s: {density: "
+             "2500}}, pictures: [directions],\n  fields: {low: [0, 0], high: [9 mm, 5 mm, 9 mm], "
+             "count: [%s]}}\ncontacts: [{normal_stiffness: 1e6, restitution: 1}]\n",
+             dim, count[dim - 2]);
+    write_case("pair.csv", table);
+    write_case("pair.yaml", text);
+    const cdem_run_options options = {.path = in_scratch("pair.yaml"),
+                                      .folder = in_scratch(dim == 2 ? "plane" : "space"),
+                                      .frames = true,
+                                      .figures = true,
+                                      .threads = 1,
+                                      .version = "test",
+                                      .commit = "test"};
+    check_ok(cdem_run(&options, &summary, &fault));
+    cdem_run_summary_release(&summary);
+    const char *script[2] = {"plane/figures/directions.gp", "space/figures/directions.gp"},
+               *set[2] = {"plane/fields/fields-000000.vtu", "space/fields/fields-000000.vtu"};
+    assert_true(holds(script[dim - 2], term[dim - 2]));
+    assert_true(is_there(set[dim - 2]));
+  }
+  assert_true(is_there("space/fields.pvd"));
 }
 
 /* Grains that fall for ever are never balanced, and the run says so. */
@@ -299,6 +347,7 @@ int main(void) {
       cmocka_unit_test(the_kept_case_runs_from_anywhere),
       cmocka_unit_test(failures_name_their_place),
       cmocka_unit_test(states_on_the_way_are_drawn),
+      cmocka_unit_test(directions_and_fields),
       cmocka_unit_test(nothing_to_balance),
   };
   return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
