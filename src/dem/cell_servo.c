@@ -33,12 +33,24 @@ bool cdem_cell_is_sought(const cdem_cell *cell, double time, const double stress
   return any;
 }
 
-void cdem_cell_rate(const cdem_cell *cell, double time, double response, const double stress[9],
-                    double bulk, double viscosity, double rate[9]) {
-  for (int k = 0; k < 9; k++)
-    rate[k] = cdem_series_at(&cell->rate[k], time);
-  for (int c = 0; c < 3; c++)
-    if (cell->servo[c])
-      rate[4 * c] = servo(cell, cdem_series_at(&cell->stress[c], time), stress[4 * c],
-                          bulk * response, viscosity);
+/* The rate goes to the servo's in a quarter of the time that the packing takes to answer. Dashpots
+ * answer within a step: without the lag a servo of many contacts, found before they were there,
+ * would turn its rate round in each step, at any step, and no book could follow. With gain g the
+ * pressure then obeys T/4 p'' + p' + g/T (p - p_wanted) = 0, which is overdamped up to g = 1. */
+static double follow(double rate, double wanted, const cdem_cell_answer *answer) {
+  return rate + fmin(1.0, 4.0 * answer->step / answer->time) * (wanted - rate);
+}
+
+void cdem_cell_rate(const cdem_cell *cell, double time, const double stress[9],
+                    const cdem_cell_answer *answer, double rate[9]) {
+  for (int k = 0; k < 9; k++) {
+    const int c = k / 4;
+    if (k % 4 != 0 || !cell->servo[c])
+      rate[k] = cdem_series_at(&cell->rate[k], time);
+    else
+      rate[k] = follow(rate[k],
+                       servo(cell, cdem_series_at(&cell->stress[c], time), stress[k],
+                             answer->bulk * answer->time, answer->viscosity),
+                       answer);
+  }
 }

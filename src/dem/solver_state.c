@@ -50,6 +50,7 @@ static int list_arrays(const cdem_dem *dem, entry list[ENTRIES]) {
   list[k++] = (entry){"dem/image_built", CDEM_ARRAY_REAL, 81, core->built_image};
   list[k++] = (entry){"dem/image_force", CDEM_ARRAY_REAL, 81, core->image_force};
   list[k++] = (entry){"dem/stress", CDEM_ARRAY_REAL, 9, core->stress};
+  list[k++] = (entry){"dem/cell_rate", CDEM_ARRAY_REAL, 9, core->rate};
   list[k++] = (entry){"dem/flow", CDEM_ARRAY_REAL, 9, core->flow.gradient};
   list[k++] = (entry){"dem/drift", CDEM_ARRAY_REAL, 3, core->flow.drift};
   list[k++] = (entry){"dem/flow_more", CDEM_ARRAY_REAL, 9, core->flow.more};

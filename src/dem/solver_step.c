@@ -28,10 +28,11 @@ void cdem_dem_wall_centers(cdem_dem *dem) {
 static void advance_cell(cdem_dem *dem) {
   cdem_dem_store *s = dem->store;
   cdem_dem_core *core = s->core;
+  const cdem_cell_answer answer = {dem->step, core->bulk, fmax(dem->step, core->response),
+                                   core->viscosity};
   double before[27][3];
   memcpy(before, s->image, sizeof before);
-  cdem_cell_rate(&s->cell, dem->time, fmax(dem->step, core->response), core->stress, core->bulk,
-                 core->viscosity, core->rate);
+  cdem_cell_rate(&s->cell, dem->time, core->stress, &answer, core->rate);
   cdem_cell_advance(&s->cell, core->rate, dem->step);
   cdem_cell_images(&s->cell, s->image);
   for (int k = 0; k < 27; k++)

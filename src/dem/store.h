@@ -150,10 +150,14 @@ cdem_status cdem_walls_restore(cdem_dem_store *s, const cdem_state *state, cdem_
 /* ---- cell_servo.c ---- */
 /* Does a servo seek a stress of which the packing holds half already? Pa, tension positive. */
 bool cdem_cell_is_sought(const cdem_cell *cell, double time, const double stress[9]);
-/* Rate of the cell now: given, or from the mean stress (row-major, Pa, tension positive). bulk: a
- * stiffness of the packing, Pa; response: how long it takes to answer, s, the step or longer;
- * viscosity: of its dashpots, Pa s. */
-void cdem_cell_rate(const cdem_cell *cell, double time, double response, const double stress[9],
-                    double bulk, double viscosity, double rate[9]);
+/* How a packing answers: its stiffness, Pa; in which time, s, the step or longer; viscosity of its
+ * dashpots, Pa s. */
+typedef struct {
+  double step, bulk, time, viscosity;
+} cdem_cell_answer;
+/* Rate of the cell now: given, or, for servos, on from that of the step before, which stands in
+ * `rate`, by the mean stress (row-major, Pa, tension positive). */
+void cdem_cell_rate(const cdem_cell *cell, double time, const double stress[9],
+                    const cdem_cell_answer *answer, double rate[9]);
 
 #endif

@@ -113,7 +113,7 @@ static void warn_of_open_book(const cdem_run_output *output, const cdem_run_summ
     return;
   snprintf(message, sizeof message,
            "the energy book is open: %.2g %% of the energy that was exchanged came from nowhere or "
-           "was lost; halve 'step' or 'safety', or let servos be slower, until it closes",
+           "was lost; halve 'step' or 'safety' until it closes, or drive what moves more slowly",
            100.0 * summary->energy_error);
   warn(output->options, message);
 }
