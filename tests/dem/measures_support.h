@@ -78,8 +78,8 @@ static inline assembly *random_assembly(int dim, int grains, uint64_t seed) {
   cdem_random random = {seed};
   for (int i = 0; i < grains; i++) {
     double x = cdem_random_uniform(&random, -1, 1), y = cdem_random_uniform(&random, -1, 1);
-    put_grain(a, x, y, dim == 3 ? cdem_random_uniform(&random, -1, 1) : 0.0,
-              cdem_random_uniform(&random, 0.05, 0.15));
+    double radius = cdem_random_uniform(&random, 0.05, 0.15);
+    put_grain(a, x, y, dim == 3 ? cdem_random_uniform(&random, -1, 1) : 0.0, radius);
     a->mass[i] = cdem_random_uniform(&random, 1, 3);
     for (int k = 0; k < dim; k++)
       a->velocity[3 * i + k] = cdem_random_uniform(&random, -1, 1);
