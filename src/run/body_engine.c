@@ -123,7 +123,8 @@ static cdem_status frames(cdem_run_setup *run, int64_t index, const cdem_frame_s
 
 /* ---- sizes ---- */
 
-static void sizes(const cdem_run_setup *run, cdem_run_summary *summary) {
+static cdem_status sizes(const cdem_run_setup *run, cdem_run_summary *summary, cdem_fault *fault) {
+  (void)fault;
   const cdem_run_body *body = body_of(run);
   summary->nodes = body->body.nodes;
   summary->unknowns = (int64_t)body->body.nodes * body->body.dofs;
@@ -131,6 +132,7 @@ static void sizes(const cdem_run_setup *run, cdem_run_summary *summary) {
   summary->distinct = body->body.distinct;
   summary->blocks = body->blocks.blocks;
   summary->interfaces = body->blocks.pairs;
+  return CDEM_OK;
 }
 
 static void put_sizes(cdem_json *json, const cdem_run_summary *summary) {

@@ -152,12 +152,12 @@ static double unbalanced(const cdem_run_setup *run) {
 
 /* ---- sizes ---- */
 
-static void sizes(const cdem_run_setup *run, cdem_run_summary *summary) {
+static cdem_status sizes(const cdem_run_setup *run, cdem_run_summary *summary, cdem_fault *fault) {
   const cdem_run_coupled *c = cdem_run_coupled_of(run);
   if (c->has_body)
-    cdem_run_engine_body.sizes(&c->body_run, summary);
+    CDEM_TRY(cdem_run_engine_body.sizes(&c->body_run, summary, fault));
   if (c->has_grains)
-    cdem_run_engine_grains.sizes(&c->grains_run, summary);
+    CDEM_TRY(cdem_run_engine_grains.sizes(&c->grains_run, summary, fault));
   summary->fine = c->fine;
   summary->interface_grains =
       c->version == CDEM_VERSION_COUPLED || c->version == CDEM_VERSION_FROZEN
@@ -168,6 +168,7 @@ static void sizes(const cdem_run_setup *run, cdem_run_summary *summary) {
   summary->wall_fine = c->coupling.cost.fine;
   summary->wall_coarse = c->coupling.cost.coarse;
   summary->wall_transfer = c->coupling.cost.transfer;
+  return CDEM_OK;
 }
 
 static void put_sizes(cdem_json *json, const cdem_run_summary *summary) {

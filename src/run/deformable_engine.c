@@ -101,14 +101,13 @@ static double unbalanced(const cdem_run_setup *run) {
 
 /* ---- sizes ---- */
 
-static void sizes(const cdem_run_setup *run, cdem_run_summary *summary) {
+static cdem_status sizes(const cdem_run_setup *run, cdem_run_summary *summary, cdem_fault *fault) {
   const cdem_run_deformable *d = cdem_run_deformable_of(run);
   cdem_dem_contact *contact = NULL;
   summary->grains = d->grains->grains.grains;
   summary->walls = d->grains->walls;
   summary->solid = cdem_grains_solid(&d->grains->grains);
-  if (cdem_run_deformable_contacts(d, &summary->contacts, &contact, NULL) != CDEM_OK)
-    summary->contacts = 0;
+  CDEM_TRY(cdem_run_deformable_contacts(d, &summary->contacts, &contact, fault));
   free(contact);
   summary->nodes = summary->elements = 0;
   for (int64_t i = 0; i < summary->grains; i++) {
@@ -116,6 +115,7 @@ static void sizes(const cdem_run_setup *run, cdem_run_summary *summary) {
     summary->nodes += shape->nodes;
     summary->elements += shape->mesh.cells;
   }
+  return CDEM_OK;
 }
 
 static void put_sizes(cdem_json *json, const cdem_run_summary *summary) {

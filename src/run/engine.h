@@ -61,7 +61,7 @@ typedef struct {
   /* Columns behind time, step and time_step, declared and filled by one walk (row.h). */
   void (*columns)(cdem_run_setup *setup, cdem_run_row *row);
   /* Sizes of the problem, into the summary and into summary.json. */
-  void (*sizes)(const cdem_run_setup *setup, cdem_run_summary *summary);
+  cdem_status (*sizes)(const cdem_run_setup *setup, cdem_run_summary *summary, cdem_fault *fault);
   void (*put_sizes)(cdem_json *json, const cdem_run_summary *summary);
   /* The present state as pictures in a folder; tag: end of the names of their files ("": none). */
   cdem_status (*pictures)(cdem_run_setup *setup, const char *folder, const char *tag,

@@ -133,16 +133,16 @@ static cdem_status frames(cdem_run_setup *run, int64_t index, const cdem_frame_s
 
 /* ---- sizes ---- */
 
-static void sizes(const cdem_run_setup *run, cdem_run_summary *summary) {
+static cdem_status sizes(const cdem_run_setup *run, cdem_run_summary *summary, cdem_fault *fault) {
   const cdem_run_grains *g = grains_of(run);
   cdem_dem_contact *contact = NULL;
   summary->grains = g->grains.grains;
   summary->walls = g->walls;
   summary->bonds = g->bonds;
   summary->solid = cdem_grains_solid(&g->grains);
-  if (cdem_dem_contacts(&g->dem, &summary->contacts, &contact, NULL) != CDEM_OK)
-    summary->contacts = 0;
+  CDEM_TRY(cdem_dem_contacts(&g->dem, &summary->contacts, &contact, fault));
   free(contact);
+  return CDEM_OK;
 }
 
 static void put_sizes(cdem_json *json, const cdem_run_summary *summary) {

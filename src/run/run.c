@@ -156,7 +156,7 @@ static cdem_status check_only(const cdem_run_options *options, cdem_run_summary 
   CDEM_TRY(cdem_run_setup_init(options, NULL, &setup, fault));
   cdem_status status = cdem_run_history_init(&setup, &history, fault);
   if (status == CDEM_OK)
-    cdem_run_summary_sizes(&setup, summary);
+    status = cdem_run_summary_sizes(&setup, summary, fault);
   cdem_table_release(&history);
   cdem_run_setup_release(&setup);
   return status;

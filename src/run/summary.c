@@ -21,8 +21,9 @@ void cdem_run_summary_release(cdem_run_summary *summary) {
   *summary = (cdem_run_summary){0};
 }
 
-void cdem_run_summary_sizes(const cdem_run_setup *setup, cdem_run_summary *summary) {
-  setup->engine->sizes(setup, summary);
+cdem_status cdem_run_summary_sizes(const cdem_run_setup *setup, cdem_run_summary *summary,
+                                   cdem_fault *fault) {
+  CDEM_TRY(setup->engine->sizes(setup, summary, fault));
   bool steps = cdem_run_values(setup)->analysis != CDEM_ANALYSIS_STATIC;
   summary->step = steps ? cdem_run_where(setup).step : 0.0;
   memcpy(summary->limiter, setup->limiter, sizeof summary->limiter);
@@ -108,7 +109,7 @@ static cdem_status fill(cdem_run_output *output, const cdem_table *history,
   const cdem_run_setup *setup = output->setup;
   const cdem_case_values *values = cdem_run_values(setup);
   int error = cdem_table_find(history, "energy_error");
-  cdem_run_summary_sizes(setup, summary);
+  CDEM_TRY(cdem_run_summary_sizes(setup, summary, fault));
   const cdem_run_now now = cdem_run_where(setup);
   summary->steps = now.steps;
   summary->time = now.time;

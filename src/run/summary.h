@@ -9,7 +9,8 @@
 void cdem_run_put_settings(cdem_json *json, const cdem_case_values *values);
 
 /* Sizes of the problem and its step, known before anything runs. */
-void cdem_run_summary_sizes(const cdem_run_setup *setup, cdem_run_summary *summary);
+cdem_status cdem_run_summary_sizes(const cdem_run_setup *setup, cdem_run_summary *summary,
+                                   cdem_fault *fault);
 /* The rest; history: read back from the file. The summary is released after a failure. */
 cdem_status cdem_run_summary_fill(cdem_run_output *output, const cdem_table *history,
                                   cdem_run_summary *summary, cdem_fault *fault);
