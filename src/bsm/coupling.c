@@ -35,9 +35,11 @@ cdem_status cdem_coupling_limit(const cdem_body *body, double limit, const cdem_
       stiffness[a] = all[tie->grain[a]];
       stiffness[tie->grains + a] = all[fine->grains + tie->grain[a]];
     }
-    double own = 2.0 / limit;
-    double added = cdem_tie_frequency2(tie, stiffness, stiffness + tie->grains, body->mass);
-    *most_step = resonance_free * 2.0 / sqrt(own * own + added);
+    double own = 2.0 / limit, added;
+    status =
+        cdem_tie_frequency2(tie, stiffness, stiffness + tie->grains, body->mass, &added, fault);
+    if (status == CDEM_OK)
+      *most_step = resonance_free * 2.0 / sqrt(own * own + added);
   }
   free(stiffness);
   free(all);

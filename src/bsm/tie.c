@@ -86,14 +86,13 @@ void cdem_tie_forces(const cdem_tie *tie, const double *on, double *force) {
   }
 }
 
-double cdem_tie_frequency2(const cdem_tie *tie, const double *stiffness, const double *turning,
-                           const double *mass) {
+cdem_status cdem_tie_frequency2(const cdem_tie *tie, const double *stiffness, const double *turning,
+                                const double *mass, double *bound, cdem_fault *fault) {
   const cdem_weights *w = &tie->weights;
   double most[2] = {0};
   int64_t rows = tie->nodes > 0 ? tie->node[tie->nodes - 1] + 1 : 0;
-  double *row = cdem_allocate(2 * rows, sizeof *row, NULL);
-  if (row == NULL)
-    return INFINITY;
+  double *row;
+  CDEM_NEW(row, 2 * rows, fault);
   for (int64_t a = 0; a < tie->grains; a++) {
     double size = 0.0;
     for (int64_t k = w->start[a]; k < w->start[a + 1]; k++)
@@ -114,9 +113,8 @@ double cdem_tie_frequency2(const cdem_tie *tie, const double *stiffness, const d
       most[1] = fmax(most[1], row[2 * n + 1] / turns);
   }
   free(row);
-  if (rotates(tie))
-    return most[0] + most[1];
   /* v and w of a grain come from the same nodes, and one spring may resist both. */
   double root = sqrt(most[0]) + sqrt(most[1]);
-  return root * root;
+  *bound = rotates(tie) ? most[0] + most[1] : root * root;
+  return CDEM_OK;
 }

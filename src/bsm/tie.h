@@ -33,8 +33,8 @@ void cdem_tie_forces(const cdem_tie *tie, const double *on, double *force);
 /* Bound of the squared frequency that springs on the grains add to nodes of these masses,
  * (rad/s)^2: stiffness, turning [grains] N/m, N m/rad; mass [nodes of the body][dofs]. By row sums.
  * Springs may couple place and spin, as shear springs at the surface of a grain do: the frequencies
- * of both are added where the same unknowns give both, else their squares. INFINITY: no memory. */
-double cdem_tie_frequency2(const cdem_tie *tie, const double *stiffness, const double *turning,
-                           const double *mass);
+ * of both are added where the same unknowns give both, else their squares. CDEM_MEMORY. */
+cdem_status cdem_tie_frequency2(const cdem_tie *tie, const double *stiffness, const double *turning,
+                                const double *mass, double *bound, cdem_fault *fault);
 
 #endif

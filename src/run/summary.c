@@ -27,6 +27,7 @@ cdem_status cdem_run_summary_sizes(const cdem_run_setup *setup, cdem_run_summary
   bool steps = cdem_run_values(setup)->analysis != CDEM_ANALYSIS_STATIC;
   summary->step = steps ? cdem_run_where(setup).step : 0.0;
   memcpy(summary->limiter, setup->limiter, sizeof summary->limiter);
+  return CDEM_OK;
 }
 
 /* ---- key results ---- */
