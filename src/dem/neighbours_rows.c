@@ -77,9 +77,9 @@ static cdem_status set_tables(const cdem_dem_store *s, struct cdem_neighbours *n
     level->far = high[l][0];
     level->buckets = 1;
     if (!level->hashed) {
-      double most_buckets = (double)((4 * level->points + 1024) / level->rows);
+      int64_t most_buckets = (4 * level->points + 1024) / level->rows;
       double wanted = (level->far - level->near) / level->size;
-      level->buckets = (int64_t)fmax(1.0, fmin(wanted, most_buckets));
+      level->buckets = (int64_t)fmax(1.0, fmin(wanted, (double)most_buckets));
     } else {
       for (level->hash_mask = 16; level->hash_mask < 2 * level->points; level->hash_mask *= 2)
         ;

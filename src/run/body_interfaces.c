@@ -4,6 +4,7 @@
  * a brick, half of a triangle's, a third of a tetrahedron's. Derived stiffnesses are rounded to
  * single precision, so that the faces of a regular mesh share one law.
  */
+#include "base/bits.h"
 #include "run/body.h"
 
 #include <stdlib.h>
@@ -113,6 +114,15 @@ static void stiffness(const cdem_run_body *setup, const cdem_case_interface *ent
   *ks = entry->shear_stiffness > 0.0 ? entry->shear_stiffness : (double)(float)(ratio * *kn);
 }
 
+static bool is_same(const cdem_interface_law *a, const cdem_interface_law *b) {
+  return a->insertion == b->insertion && a->softening == b->softening &&
+         a->unloading == b->unloading && cdem_same_bits(a->kn, b->kn) &&
+         cdem_same_bits(a->ks, b->ks) && cdem_same_bits(a->tension, b->tension) &&
+         cdem_same_bits(a->cohesion, b->cohesion) && cdem_same_bits(a->friction, b->friction) &&
+         cdem_same_bits(a->dilation, b->dilation) && cdem_same_bits(a->energy_1, b->energy_1) &&
+         cdem_same_bits(a->energy_2, b->energy_2);
+}
+
 /* Position of a law in the table, added when new. `entry` is kept apart by its numbers. */
 static cdem_status intern(law_table *table, const cdem_interface_law *law, uint64_t entry,
                           int32_t *index, cdem_fault *fault) {
@@ -121,12 +131,12 @@ static cdem_status intern(law_table *table, const cdem_interface_law *law, uint6
   uint64_t hash = (bits[0] ^ (bits[1] << 1) ^ (entry << 56)) * 0x9e3779b97f4a7c15u;
   int64_t place = (int64_t)(hash >> 20) & (table->slots - 1);
   for (; table->slot[place] >= 0; place = (place + 1) & (table->slots - 1))
-    if (memcmp(&table->law[table->slot[place]], law, sizeof *law) == 0) {
+    if (is_same(&table->law[table->slot[place]], law)) {
       *index = table->slot[place];
       return CDEM_OK;
     }
   CDEM_TRY(cdem_grow(&table->law, &table->capacity, table->laws + 1, sizeof *table->law, fault));
-  memcpy(&table->law[table->laws], law, sizeof *law);
+  table->law[table->laws] = *law;
   *index = table->slot[place] = (int32_t)table->laws++;
   return CDEM_OK;
 }

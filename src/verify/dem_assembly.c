@@ -1,4 +1,5 @@
 /* Some hundred grains of different sizes: conservation, the energy book, and bits. */
+#include "base/bits.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "verify/dem.h"
@@ -223,7 +224,7 @@ cdem_status cdem_dem_measure_bits(int parameter, double *value, cdem_fault *faul
     status = run_for_bits(&b, steps, &count, &two, fault);
   *value = 0.0;
   for (int64_t i = 0; i < count && status == CDEM_OK; i++)
-    *value += memcmp(&one[i], &two[i], sizeof *one) != 0;
+    *value += !cdem_same_bits(one[i], two[i]);
   free(one);
   free(two);
   return status;

@@ -118,11 +118,13 @@ static cdem_status mean_force(cdem_fdem_world *world, double radius, double over
   *force = 0.0;
   for (int t = 0; t < TIMES; t++) {
     world->options.grains.grains = 0;
-    for (int i = 0; i < CDEM_FDEM_WORLD_GRAINS; i++)
+    for (int i = 0; i < CDEM_FDEM_WORLD_GRAINS; i++) {
+      const int pair = i / 2;
       cdem_fdem_world_turn(world,
                            cdem_fdem_world_add(world, i % 2 * (2.0 * radius - overlap),
-                                               5.0 * radius * (double)(i / 2), 0.0, radius),
+                                               5.0 * radius * pair, 0.0, radius),
                            &random);
+    }
     CDEM_TRY(cdem_fdem_world_start(world, fault));
     cdem_fdem_look(&world->fdem, &(cdem_fdem_view){.force = pull});
     for (int i = 0; i < PAIRS; i++)

@@ -1,4 +1,5 @@
 /* Grains that bounce, roll, tumble and collide: what a closed form or a conservation law says. */
+#include "base/bits.h"
 #include "base/mat3.h"
 #include "mesh/mesh.h"
 #include "verify/fdem.h"
@@ -182,7 +183,8 @@ static cdem_status cloud(int threads, cdem_fdem_world *world, cdem_fault *fault)
   cdem_random random = {11};
   cdem_status status = cdem_fdem_world_init(world, "cubesphere", 2, 40e9, 0.2, NULL, fault);
   for (int i = 0; i < 48; i++) {
-    int g = cdem_fdem_world_add(world, 0.045 * (i % 4), 0.045 * (i / 4 % 4), 0.045 * (i / 16),
+    const int row = i / 4 % 4, layer = i / 16;
+    int g = cdem_fdem_world_add(world, 0.045 * (i % 4), 0.045 * row, 0.045 * layer,
                                 cdem_random_uniform(&random, 0.018, 0.022));
     cdem_fdem_world_turn(world, g, &random);
     for (int c = 0; c < 3; c++) {
@@ -231,7 +233,7 @@ static cdem_status bits(cdem_fdem_world *one, double *value, cdem_fault *fault) 
     cdem_fdem_look(&two.fdem, &(cdem_fdem_view){.xyz = b});
     *value = 0.0;
     for (int64_t i = 0; i < 3 * one->fdem.grains; i++)
-      *value += memcmp(&a[i], &b[i], sizeof a[i]) != 0;
+      *value += !cdem_same_bits(a[i], b[i]);
   }
   cdem_fdem_world_release(&two);
   return status;

@@ -1,4 +1,5 @@
 /* A run and its scaled twin, number by number. */
+#include "base/bits.h"
 #include "io/io.h"
 #include "io/run_files.h"
 #include "run/run.h"
@@ -99,7 +100,7 @@ static int64_t first_off(const double *a, const double *b, int64_t count) {
   int power[QUANTITIES], powers = 0;
   for (int64_t i = 0; i < count; i++) {
     int n = 0, k = 0;
-    if (memcmp(&a[i], &b[i], sizeof a[i]) == 0) /* whole numbers of a record, too */
+    if (cdem_same_bits(a[i], b[i])) /* whole numbers of a record, too */
       continue;
     if (!find_power(a[i], b[i], &n))
       return i;
