@@ -111,7 +111,8 @@ static void start_anew(cdem_dem *dem) {
   }
   int64_t lasted = dem->steps - core->built_step;
   if (s->options.skin == 0.0 && core->built_step >= 0) {
-    double least = 0.05 * core->mean_radius, most = 0.6 * core->mean_radius;
+    double least = CDEM_DEM_LEAST_SKIN * core->mean_radius,
+           most = CDEM_DEM_MOST_SKIN * core->mean_radius;
     if (lasted < 40)
       s->skin = fmin(most, 1.4 * s->skin);
     else if (lasted > 400)

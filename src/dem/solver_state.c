@@ -58,6 +58,8 @@ static int list_arrays(const cdem_dem *dem, entry list[ENTRIES]) {
   return k;
 }
 
+enum { AT_TIME, AT_STEP, AT_SKIN = 7 }; /* of these numbers */
+
 static void pack_reals(cdem_dem *dem, double real[REALS], bool in) {
   cdem_dem_core *core = dem->store->core;
   double *at[] = {&dem->time,       &dem->step,        &core->base_time, &core->wall_work,
@@ -136,12 +138,26 @@ cdem_status cdem_dem_save(const cdem_dem *dem, cdem_state *state, cdem_fault *fa
 /* The numbers that decide how the run goes on. */
 static cdem_status check_clock(const double real[REALS], const int64_t count[COUNTS],
                                cdem_fault *fault) {
-  CDEM_REQUIRE(real[0] >= 0.0 && real[1] > 0.0 && count[0] >= 0 && count[0] < INT64_MAX / 2 &&
-                   count[1] >= 0 && count[1] <= count[0] && count[2] >= -1 && count[2] <= count[0],
+  CDEM_REQUIRE(real[AT_TIME] >= 0.0 && real[AT_STEP] > 0.0 && count[0] >= 0 &&
+                   count[0] < INT64_MAX / 2 && count[1] >= 0 && count[1] <= count[0] &&
+                   count[2] >= -1 && count[2] <= count[0],
                fault, CDEM_INPUT,
                "the checkpoint stands at t = %g s after %lld steps of %g s, which cannot be; it "
                "does not belong to this case",
-               real[0], (long long)count[0], real[1]);
+               real[AT_TIME], (long long)count[0], real[AT_STEP]);
+  return CDEM_OK;
+}
+
+/* The skin that the case gives, or one that an automatic one can come to. */
+static cdem_status check_skin(const cdem_dem *dem, double skin, cdem_fault *fault) {
+  const cdem_dem_store *s = dem->store;
+  double mean = s->core->mean_radius, part = s->options.skin;
+  double least = part > 0.0 ? part : CDEM_DEM_LEAST_SKIN,
+         most = part > 0.0 ? part : CDEM_DEM_MOST_SKIN;
+  CDEM_REQUIRE(skin >= least * mean && skin <= most * mean, fault, CDEM_INPUT,
+               "the list of neighbours in the checkpoint has a skin of %g m, which cannot be; it "
+               "does not belong to this case",
+               skin);
   return CDEM_OK;
 }
 
@@ -175,6 +191,7 @@ static cdem_status restore(cdem_dem *dem, const cdem_state *state, cdem_fault *f
   CDEM_TRY(cdem_state_get(state, "dem/counts", CDEM_ARRAY_INT64, COUNTS, count, fault));
   CDEM_TRY(cdem_state_get(state, "dem/reals", CDEM_ARRAY_REAL, REALS, real, fault));
   CDEM_TRY(check_clock(real, count, fault));
+  CDEM_TRY(check_skin(dem, real[AT_SKIN], fault));
   core->seen_holds = count[5] != 0;
   if (count[4] != 0)
     CDEM_TRY(cdem_dem_want_applied(dem, fault));

@@ -34,6 +34,10 @@ enum {
   CDEM_DEM_SUMS
 };
 
+/* An automatic skin lies between these parts of the mean radius. */
+#define CDEM_DEM_LEAST_SKIN 0.05
+#define CDEM_DEM_MOST_SKIN  0.6
+
 /* A pair that touches: place among the pairs of the chunk, and whether its history is in use. */
 typedef uint32_t cdem_hit;
 

@@ -155,7 +155,13 @@ static void test_flight(void **state) {
     *(int32_t *)cdem_state_find(&saved, "dem/bonds")->data = (int32_t)m.grains.grains;
     check_fails(cdem_dem_restore(&again, &saved, &fault), CDEM_INPUT,
                 "bond 0 of the checkpoint cannot be: it joins grains");
-    ((double *)cdem_state_find(&saved, "dem/reals")->data)[1] = 0.0;
+    double *reals = cdem_state_find(&saved, "dem/reals")->data, skin = reals[7];
+    for (int k = 0; k < 2; k++) { /* the skin is automatic */
+      reals[7] = k == 0 ? -skin : 20.0 * skin;
+      check_fails(cdem_dem_restore(&again, &saved, &fault), CDEM_INPUT, "has a skin of ");
+    }
+    reals[7] = skin;
+    reals[1] = 0.0;
     check_fails(cdem_dem_restore(&again, &saved, &fault), CDEM_INPUT,
                 "steps of 0 s, which cannot be");
     cdem_dem_release(&dem);
