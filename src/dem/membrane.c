@@ -222,12 +222,24 @@ static int32_t parts(double length, double part, int32_t least) {
   return count < least ? least : (int32_t)count;
 }
 
+static int32_t around(const cdem_membrane_options *o) {
+  return parts(2.0 * pi * o->radius, o->spacing, 6);
+}
+
+static int32_t rings(const cdem_membrane_options *o) {
+  return 1 + parts(o->high - o->low, 0.5 * sqrt(3.0) * o->spacing, 2);
+}
+
+int64_t cdem_membrane_nodes(const cdem_membrane_options *options) {
+  return (int64_t)rings(options) * around(options);
+}
+
 cdem_status cdem_membrane_create(const cdem_membrane_options *options, cdem_membrane *m,
                                  cdem_fault *fault) {
   *m = (cdem_membrane){.options = *options};
   CDEM_TRY(cdem_membrane_check(options, 0.0, fault));
-  m->around = parts(2.0 * pi * options->radius, options->spacing, 6);
-  m->rings = 1 + parts(options->high - options->low, 0.5 * sqrt(3.0) * options->spacing, 2);
+  m->around = around(options);
+  m->rings = rings(options);
   m->nodes = m->rings * m->around;
   m->faces = 2 * (m->rings - 1) * m->around;
   m->spacing = 2.0 * pi * options->radius / m->around;

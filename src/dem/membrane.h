@@ -105,6 +105,8 @@ void cdem_membrane_complete(cdem_membrane_options *options, double pressure, dou
 /* CDEM_INPUT: a size that cannot be; names it. diameter > 0: smallest grain, for the leak bound. */
 cdem_status cdem_membrane_check(const cdem_membrane_options *options, double diameter,
                                 cdem_fault *fault);
+/* How many nodes such a tube has. */
+int64_t cdem_membrane_nodes(const cdem_membrane_options *options);
 /* A tube at rest, unstressed, with the forces of the pressure at t = 0 not yet evaluated. */
 cdem_status cdem_membrane_create(const cdem_membrane_options *options, cdem_membrane *membrane,
                                  cdem_fault *fault);

@@ -24,12 +24,29 @@ cdem_status cdem_run_grains_create(cdem_run_setup *run, const cdem_state *checkp
   return cdem_run_grains_start(g, checkpoint, fault);
 }
 
+/* A membrane follows from the grains; those of a checkpoint that is not of this case could ask for
+ * one of any size. */
+static cdem_status check_membrane(const cdem_run_grains *g, const cdem_state *checkpoint,
+                                  cdem_fault *fault) {
+  if (checkpoint == NULL || g->confinement.membrane == NULL)
+    return CDEM_OK;
+  const cdem_array *kept = cdem_state_find(checkpoint, "membrane/place");
+  int64_t nodes = cdem_membrane_nodes(&g->membrane);
+  CDEM_REQUIRE(kept != NULL && kept->count == 3 * nodes, fault, CDEM_INPUT,
+               "the checkpoint does not belong to this case: its grains want a membrane of %lld "
+               "nodes, and it has %lld",
+               (long long)nodes, (long long)(kept != NULL ? kept->count / 3 : 0));
+  return CDEM_OK;
+}
+
 cdem_status cdem_run_grains_surround(cdem_run_grains *g, const cdem_state *checkpoint,
                                      cdem_fault *fault) {
   CDEM_TRY(cdem_run_grains_materials(g, fault));
   CDEM_TRY(cdem_run_grains_contacts(g, fault));
-  return cdem_case_is_triaxial(&g->run->cases) ? cdem_run_grains_triaxial(g, fault)
-                                               : cdem_run_grains_walls(g, checkpoint, fault);
+  if (!cdem_case_is_triaxial(&g->run->cases))
+    return cdem_run_grains_walls(g, checkpoint, fault);
+  CDEM_TRY(cdem_run_grains_triaxial(g, fault));
+  return check_membrane(g, checkpoint, fault);
 }
 
 cdem_status cdem_run_grains_build(cdem_run_grains *g, const cdem_state *checkpoint,
