@@ -248,10 +248,10 @@ static cdem_status check_fields(const cdem_case *cases, cdem_fault *fault) {
                             "fields from %g to %g m along %c: 'high' must not be below 'low'",
                             f->low[k], f->high[k], "xyz"[k]);
     snprintf(key, sizeof key, "grains.fields.count[%d]", k);
-    if (!(f->count[k] >= 1.0 && f->count[k] == floor(f->count[k])))
+    if (!(f->count[k] >= 1.0 && f->count[k] <= 1e6 && f->count[k] == floor(f->count[k])))
       return cdem_case_fail(cases, key, CDEM_INPUT, fault,
                             "%g points of the fields along %c; they are counted by whole numbers "
-                            "from 1 on",
+                            "from 1 to 1000000",
                             f->count[k], "xyz"[k]);
     points *= f->count[k];
   }

@@ -1,7 +1,6 @@
 /* Group cases: shipped cases as they are, each key result over its reference in the case file; what
- * they are is told in docs/cases.md. Tolerances are those of the
- * files (tests/verify/verify.c compares). CMake makes texts of the
- * library out of the cases and their meshes. */
+ * they are is told in docs/cases.md. Tolerances are those of the files (tests/verify/verify.c
+ * compares). CMake makes texts of the library out of the cases and their meshes. */
 #include "verify/cases.h"
 
 #include "io/io.h"

@@ -133,7 +133,8 @@ static void frames_say_what_fields_say(void **unused) {
     }
 }
 
-/* Over a grid that holds all of it the density is the mass. */
+/* Over a grid that holds all of it the density is the mass, up to the rule of the sum: a bump with
+ * two smooth derivatives, eight points from its middle to its end. */
 static void density_adds_up_to_the_mass(void **unused) {
   (void)unused;
   cdem_fault fault = {0};

@@ -159,7 +159,8 @@ static void a_servo_keeps_the_book(void **state) {
       assert_true(key_value(&s, "stress") < -250.0); /* it is pressed, not loose */
       cdem_run_summary_release(&s);
     }
-    /* Of first order: a quarter. */
+    /* Of first order: a quarter. Without the lag 0.2 to 0.5 stays open at any step; with it
+     * packings have 3e-5 to 4e-4. */
     check_below(error[0], 1e-3);
     check_below(error[1], error[0] / 2.5);
   }
@@ -232,6 +233,8 @@ static void failures_name_their_place(void **state) {
             "fields from 1 to 0 m along y: 'high' must not be below 'low'");
   check_bad("box.yaml", "grains.fields={low: [0, 0], high: [1, 1], count: [2, 2.5]}",
             "2.5 points of the fields along y; they are counted by whole numbers");
+  check_bad("box.yaml", "grains.fields={low: [0, 0], high: [1, 1], count: [2e6, 1]}",
+            "2e+06 points of the fields along x; they are counted by whole numbers from 1 to");
   check_bad("box.yaml", "grains.fields={low: [0, 0], high: [1, 1], count: [2, 2, 3]}",
             "discs move in the plane z = 0: their fields have one layer, not 3");
   check_bad("box.yaml", "grains.fields={low: [0, 0], high: [1, 1], count: [1e5, 1e5]}",
